@@ -15,7 +15,7 @@ try {
         const RungResult& rung = accuracy.rungs[i];
         const RungVerdict& verdict = accuracy.judgement.rungs[i];
         if (rung.done())
-            std::printf("%-28s %9.4f mm  %8.3g s  off by %s\n", rung_id(rung.rung).c_str(), 1e3 * rung.slip.front(),
+            std::printf("%-28s %9.4f mm  %8.3g s  off by %s\n", rung_id(rung.rung).c_str(), 1e3 * rung.largest_slip(),
                         rung.seconds, verdict.deviation ? std::to_string(*verdict.deviation).c_str() : "?");
         else
             std::printf("%-28s %s\n", rung_id(rung.rung).c_str(), rung.remark.c_str());

@@ -134,8 +134,7 @@ std::vector<std::string> messages_of(const LadderFacts& facts, const Loaded& loa
         messages.push_back(fmt::format("Only the first of the scene's {} records is used: {}. With --all-records the "
                                        "worst counts.",
                                        loaded.in_scene, loaded.records->front().files.name));
-    const std::vector<int> polarities = polarities_of(loaded.scene);
-    messages.push_back(fmt::format("Every model level is run with {}.", polarity_words({polarities.front()})));
+    messages.push_back(fmt::format("Every model level is run with {}.", polarity_words(polarities_of(loaded.scene))));
     for (const RungResult& r : results)
         if (!r.done())
             messages.push_back(fmt::format("{} {}: {}", rung_id(r.rung),
@@ -158,17 +157,18 @@ void write_csv(const std::filesystem::path& out, const Scene& scene, const std::
     write_file(out / "accuracy.csv", accuracy_csv(scene, results, judge_rungs(results, tolerance)));
 }
 
-/// One rung alone: its slip, by record.
+/// One rung alone: its slip, by motion.
 int run_one(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& runner, const Streams& streams)
 {
     const Rung rung = *parse_rung(a.rung);
     ClimbCalls calls;
     calls.run = [&](const Rung& r) { return runner.run(r); };
     const RungResult result = run_repeatedly(rung, 1, calls);
+    const std::vector<MotionName> motions = motion_names(loaded.scene, *loaded.records);
     if (streams.form == Form::json)
-        streams.out << one_rung_json(result, *loaded.records).dump(2) << "\n";
+        streams.out << one_rung_json(result, motions).dump(2) << "\n";
     else
-        put_answer(one_rung_answer(result, *loaded.records), "--out DIR", streams);
+        put_answer(one_rung_answer(result, motions), "--out DIR", streams);
     if (!a.out.empty()) {
         write_file(a.out / "scene.toml", resolved_toml(scene_of(loaded.scene, rung)));
         if (!streams.quiet && rung.family == RungFamily::finite_elements)
@@ -206,10 +206,10 @@ std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& lo
         const RungResult& r = results.back();
         watch.results_at_hand();
         const std::string said =
-            r.done()
-                ? fmt::format("{:<32} {:>10.5g} mm {:>9.3g} s", rung_id(r.rung), r.slip.front() / units::mm, r.seconds)
-                : fmt::format("{:<32} {}: {}", rung_id(r.rung),
-                              r.outcome == RungOutcome::skipped ? "skipped" : word(r.status), r.remark);
+            r.done() ? fmt::format("{:<32} {:>10.5g} mm {:>9.3g} s", rung_id(r.rung), r.largest_slip() / units::mm,
+                                   r.seconds)
+                     : fmt::format("{:<32} {}: {}", rung_id(r.rung),
+                                   r.outcome == RungOutcome::skipped ? "skipped" : word(r.status), r.remark);
         if (streams.bar)
             *streams.bar << "\r  " << said << "\n";
         else if (line_is_due())

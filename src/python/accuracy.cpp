@@ -29,7 +29,7 @@ struct AccuracyResult final : Result {
     {
         return {{"rungs", pages::rung_table(found.rungs, found.judgement)},
                 {"models", pages::model_table(found.rungs, found.judgement)},
-                {"slips", pages::slip_table(found.rungs, *records)}};
+                {"slips", pages::slip_table(found.rungs, input().motions())}};
     }
     std::string json() const override { return pages::accuracy_json(input()).dump(2); }
     pages::Page page() const override { return pages::accuracy_page(input()); }

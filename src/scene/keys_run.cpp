@@ -220,8 +220,8 @@ std::vector<KeyGroup> motion_groups()
     std::vector<KeyGroup> groups;
     Key polarity =
         word("polarity", "both",
-             "the one sign on the horizontal components as filed that `fe` and `sweep` run; `screen`, `assess`, "
-             "`fragility` run both",
+             "the one sign on the horizontal components as filed that `fe`, `sweep`, `accuracy` and `explain --ablate` "
+             "run; `screen`, `assess`, `fragility` run both",
              "-1", at(&Motion::polarity));
     Key pause =
         number("sequence_pause", seconds, Range::between(0, 600), "0",

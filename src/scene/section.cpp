@@ -234,7 +234,7 @@ Polyline polygon_by_dimensions(const SectionInput& in, Findings& findings)
                           shortest(crest_to), shortest(b)),
               "widen the base, or lessen crest_m or upstream_slope");
     const double toe_y = -b * std::tan(in.base_inclination.value_or(0));
-    if (toe_y >= h - neck)
+    if (neck < h && toe_y >= h - neck)
         wrong("base_inclination",
               fmt::format("section.base_inclination_deg puts the toe at y = {} m.", shortest(toe_y)),
               "the toe must lie below the downstream face");

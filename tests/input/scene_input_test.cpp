@@ -163,6 +163,8 @@ TEST(SceneInput, ChecksBetweenKeysNameBothValues)
     EXPECT_SAYS(message(with("crest_m = 12\n", "")), "section.neck_m = 11 is given without section.crest_m");
     EXPECT_SAYS(message(with("neck_m = 11", "neck_m = 70")),
                 "section.neck_m = 70 is not below section.height_m = 62.5");
+    EXPECT_EQ(message(with("neck_m = 11", "neck_m = 70")).find("base_inclination"), std::string::npos)
+        << "a key that the scene does not have";
 }
 
 TEST(SceneInput, RecordFilesHaveToExist)

@@ -4,7 +4,7 @@ What is measured (seconds, bytes, where reduced rock was found) is left out."""
 import json
 import unittest
 
-from surroundings import EXAMPLES, need, program
+from surroundings import EXAMPLES, SOURCE, need, program
 
 need("numpy")
 import damslip  # noqa: E402
@@ -40,6 +40,15 @@ class SameBits(unittest.TestCase):
                 file = str(EXAMPLES / f"{name}.toml")
                 self.same_object(program("fe", file, "--polarity", "1", "--no-mesh-error", "--json", "--quiet"),
                                  damslip.load(file).fe(polarity=1, mesh_error=False).json_text())
+
+    def test_the_question_of_every_command(self):
+        """The scene on which Audit3.TheSameQuestionHasTheSameAnswer compares the commands."""
+        file = str(SOURCE / "tests" / "audit3" / "same_question" / "dam.toml")
+        scene = damslip.load(file)
+        self.assertEqual(program("screen", file, "--json", "--quiet"), scene.screen().json_text())
+        self.same_object(program("fe", file, "--no-mesh-error", "--json", "--quiet"),
+                         scene.fe(mesh_error=False).json_text())
+        self.assertEqual(len(scene.fe(mesh_error=False).runs), 2)
 
     def test_modes(self):
         file = str(EXAMPLES / "koyna.toml")

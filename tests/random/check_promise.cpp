@@ -4,6 +4,7 @@
 #include "cli/worker_command.hpp"
 #include "core/file.hpp"
 #include "core/status.hpp"
+#include "scene/keys.hpp"
 #include "scene/read.hpp"
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <regex>
+#include <set>
 #include <sstream>
 
 namespace damslip::random {
@@ -176,11 +178,13 @@ bool has_no_number(const std::string& words)
 /// What holds of every command on every scene.
 void check_command(std::vector<std::string> arguments, bool as_json, CheckedRuns& runs)
 {
+    const std::string folder = std::filesystem::path(arguments[1]).parent_path().string(); // of scene and records
     if (as_json) arguments.push_back("--json");
     std::ostringstream out, talk;
     const int code = cli::run_program(arguments, out, talk, false);
     arguments.erase(arguments.begin() + 1); // the scene
     Findings findings(fmt::format("{}", fmt::join(arguments, " ")), runs);
+    ++runs.commands[arguments[0]];
     findings.demand(code == 0 || (code >= 2 && code <= 4), fmt::format("exit code {}: {}", code, talk.str()));
     for (const std::string& words : {out.str(), talk.str()})
         if (has_no_number(words)) {
@@ -188,20 +192,82 @@ void check_command(std::vector<std::string> arguments, bool as_json, CheckedRuns
             for (std::string line; std::getline(lines, line);)
                 findings.demand(!has_no_number(line), "no number: " + line.substr(0, 300));
         }
-    if (code == 2 || code == 3)
-        findings.demand(talk.str().find("fix:") != std::string::npos, "an error without a fix: " + talk.str());
+    for (const std::string& part : {std::string("fix:"), std::string("expected:"), folder})
+        findings.demand((code != 2 && code != 3) || (code == 2 && part == folder) ||
+                            talk.str().find(part) != std::string::npos,
+                        "an error without \"" + part + "\": " + talk.str());
     if (!as_json) return;
     const json answer = json::parse(out.str(), nullptr, false);
     findings.demand(answer.is_object(), "--json prints no object: " + out.str().substr(0, 200));
     check_statuses(answer, findings);
 }
 
+/// A number of the scene: its line, its key in the table of keys, its value.
+struct NumberLine {
+    std::size_t line;
+    std::string table, key;
+    double value;
+};
+
+/// Numbers by which the rigid block goes whatever else the scene says.
+std::vector<NumberLine> honoured_numbers(const std::vector<std::string>& lines)
+{
+    static const std::set<std::string> whole{"site", "section", "dam", "reservoir", "tailwater"};
+    SectionInput section;
+    std::vector<NumberLine> numbers;
+    std::string table;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        static const std::regex head(R"(\[+([^\]]+)\]+.*)"), entry(R"((\w+) = ([-+.\deE]+)( *#.*)?)");
+        std::smatch found;
+        if (std::regex_match(lines[i], found, head)) table = found[1];
+        if (!std::regex_match(lines[i], found, entry)) continue;
+        for (const KeyGroup& group : key_groups(section))
+            for (const Key& key : group.keys) {
+                const std::vector<std::string> spellings = key.spellings();
+                if (group.name == table && std::find(spellings.begin(), spellings.end(), found[1]) != spellings.end() &&
+                    (honoured_by(table, key.name) & methods::rigid) &&
+                    (whole.contains(table) || key.name == "friction"))
+                    numbers.push_back({i, table, found[1], std::strtod(found[2].str().c_str(), nullptr)});
+            }
+    }
+    return numbers;
+}
+
+/// What `screen` computes, without what names the scene.
+json computed(json answer)
+{
+    for (const char* key : {"scene", "effects", "warnings", "headline"}) answer.erase(key);
+    return answer;
+}
+
+/// A number that the table of keys calls honoured changes the answer: one of the scene, a twentieth larger.
+void check_honoured(const std::filesystem::path& scene, const Parsed& screen, std::uint32_t turn, CheckedRuns& runs)
+{
+    std::vector<std::string> lines;
+    std::istringstream text(read_file(scene));
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+    const std::vector<NumberLine> numbers = honoured_numbers(lines);
+    if (numbers.empty() || (screen.code != 0 && screen.code != 4)) return;
+    const NumberLine& number = numbers[turn % numbers.size()];
+    if (number.value == 0.0) return;
+    lines[number.line] = fmt::format("{} = {}", number.key, 1.05 * number.value);
+    const std::filesystem::path other = scene.parent_path() / "other.toml";
+    write_file(other, fmt::format("{}\n", fmt::join(lines, "\n")));
+    const Parsed changed = parsed({"screen", other.string(), "--json"});
+    if (changed.code != 0 && changed.code != 4) return;
+    ++runs.commands["a key a twentieth larger"];
+    Findings("screen", runs)
+        .demand(computed(changed.data) != computed(screen.data),
+                fmt::format("the same answer for {}.{} = {} and {}", number.table, number.key, number.value,
+                            1.05 * number.value));
+}
+
 /// The same scene with a friction that is not known and a hazard, for `fragility`.
-std::string with_probability(const std::filesystem::path& scene)
+std::string with_probability(const std::filesystem::path& scene, bool few_runs = false)
 {
     const std::filesystem::path file = scene.parent_path() / "fragility.toml";
     write_file(scene.parent_path() / "hazard.csv", "pga_g,annual_rate\n0.05,0.02\n0.2,0.002\n0.8,0.0001\n");
-    write_file(file, read_file(scene) +
+    write_file(file, read_file(scene) + (few_runs ? "[probability]\nreplicates = 1\n" : "") +
                          "[[probability.variable]]\nname = \"mu\"\nkey = \"contact.friction\"\n"
                          "lognormal = { median = 0.8, beta = 0.2 }\n[intensity]\nmeasure = \"PGA\"\n"
                          "levels_g = [0.1, 0.3, 0.6]\n[suite]\nmax_scale = 1000\n[[limit]]\nquantity = \"slip\"\n"
@@ -245,8 +311,9 @@ void check_commands(const std::filesystem::path& file, std::uint32_t turn, Check
     run("draw");
     run("mesh");
     run("explain", {"--method", turn % 4 < 2 ? "fe" : "rigid"});
-    run("sweep", {"--method", "rigid,rigid-v,coupled,jibson-2007-1", "--friction", "0.5,0.9", "--polarity", "1,-1"});
-    switch (turn / 2 % 10) {
+    run("sweep",
+        {"--method", "rigid,rigid-v,coupled,jibson-2007-ratio", "--friction", "0.5,0.9", "--polarity", "1,-1"});
+    switch (turn / 2 % 16) {
     case 0:
         return run("fe");
     case 1:
@@ -266,7 +333,22 @@ void check_commands(const std::filesystem::path& file, std::uint32_t turn, Check
     case 8:
         return check_command({"fragility", with_probability(file), "--samples", "8", "--share-rows", "0"}, as_json,
                              runs);
+    case 9:
+        return check_command(
+            {"fragility", with_probability(file, true), "--method", "fe", "--samples", "2", "--share-rows", "0"},
+            as_json, runs);
+    case 10:
+        return run("accuracy", {"--rung", "rigid:h+v"});
+    case 11:
+        return run("accuracy", {"--rung", "fe-added-mass:scene"});
+    case 12:
+        return run("explain", {"--ablate", "--method", "fe"});
+    case 13:
+        return run("fe", {"--spread", "--polarity", "-1"});
+    case 14:
+        return run("screen", {"--response-spectrum", "--mean-polarity", "--rocking"});
     default:
+        ++runs.commands["worker"];
         return check_worker(scene, runs);
     }
 }
@@ -278,7 +360,10 @@ CheckedRuns check_promise(const std::filesystem::path& scene, std::uint32_t turn
     CheckedRuns runs;
     const Parsed screen = parsed({"screen", scene.string(), "--json"});
     const Parsed fe = parsed({"fe", scene.string(), "--json"});
+    ++runs.commands["screen"];
+    ++runs.commands["fe"];
     runs.screen_code = screen.code;
+    check_honoured(scene, screen, turn, runs);
     runs.fe_code = fe.code;
     check_screen(screen, runs);
     if (fe.code == 3)

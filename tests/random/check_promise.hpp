@@ -14,9 +14,11 @@ namespace damslip::random {
 ///
 /// Then other commands, the quick ones and `turn` of the dear ones, each as text or as --json. Of every one:
 ///
-/// - exit code 0, 2, 3 or 4; an error names what to do; with --json standard output is one object;
+/// - exit code 0, 2, 3 or 4; an error names the file, what is expected and what to do; with --json standard output is one object;
 /// - no "inf" or "nan" in a sentence, a table or an object;
 /// - no slip beside a status that has none, wherever the object has both.
+///
+/// And one number of the scene by which the rigid block goes is made a twentieth larger: `screen` has another answer.
 CheckedRuns check_promise(const std::filesystem::path& scene, std::uint32_t turn);
 
 } // namespace damslip::random

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -9,9 +10,10 @@ namespace damslip::random {
 /// How the runs of one scene ended, and what of it must not be.
 struct CheckedRuns {
     int screen_code = 0, fe_code = 0;
-    std::string status;                ///< of the FE run; empty: refused
-    std::string refusal;               ///< first sentence of the FE run's; empty: not refused
-    std::vector<std::string> findings; ///< sentences; empty: nothing wrong
+    std::string status;                       ///< of the FE run; empty: refused
+    std::string refusal;                      ///< first sentence of the FE run's; empty: not refused
+    std::vector<std::string> findings;        ///< sentences; empty: nothing wrong
+    std::map<std::string, int> commands = {}; ///< how often each was run, of check_promise()
 };
 
 /// Runs `screen` and `fe` of a scene as a user does and holds them against what every scene has to keep to:

@@ -37,7 +37,7 @@ int main(int argc, char** argv)
     const char* seconds_text = std::getenv("DAMSLIP_RANDOM_SECONDS"); // a scene that takes longer is a finding
     const unsigned limit = seconds_text ? static_cast<unsigned>(std::atoi(seconds_text)) : 120;
 
-    std::map<std::string, int> ends;
+    std::map<std::string, int> ends, commands;
     int broken = 0;
     double slowest = 0.0;
     std::uint32_t slowest_seed = first;
@@ -57,6 +57,7 @@ int main(int argc, char** argv)
             slowest = seconds;
             slowest_seed = seed;
         }
+        for (const auto& [command, times] : runs.commands) commands[command] += times;
         ++ends[runs.status.empty() ? "refused (" + std::to_string(runs.fe_code) + ")" : runs.status];
         if (std::getenv("DAMSLIP_RANDOM_TALK"))
             std::printf("%u %.2fs %s %s\n", seed, seconds, runs.status.c_str(), runs.refusal.c_str());
@@ -69,6 +70,7 @@ int main(int argc, char** argv)
     std::printf("%u scenes:", count);
     for (const auto& [end, number] : ends) std::printf(" %d %s,", number, end.c_str());
     std::printf(" slowest %u with %.2f s\n", slowest_seed, slowest);
+    for (const auto& [command, times] : commands) std::printf("%6d %s\n", times, command.c_str());
     if (broken > 0) std::printf("%d scenes broke a rule, kept in %s\n", broken, folder.c_str());
     return broken == 0 ? 0 : 1;
 }

@@ -2,6 +2,7 @@
 
 #include "core/file.hpp"
 #include "random/random_motion.hpp"
+#include "scene/key_table.hpp"
 #include "source_dir.hpp"
 
 #include <fmt/format.h>
@@ -155,11 +156,58 @@ void add_what_makes_it_hard(Lines& lines, Draw& draw)
     }
 }
 
+/// A value such as the documents show, or at the ends of what is usual or allowed; or another word of its list.
+std::string some_value(const KeyGroup& group, const Key& key, Draw& draw)
+{
+    static Scene scratch;
+    if (!group.inside) {
+        const Slot slot = key.slot(group.open(scratch));
+        if (const Choice* choice = std::get_if<Choice>(&slot))
+            return '"' + choice->words[some(draw, choice->words.size())] + '"';
+        if (std::holds_alternative<bool*>(slot)) return draw.word({"true", "false"});
+    }
+    std::vector<double> ends;
+    for (const double end : {key.range.low, key.range.high})
+        if (std::isfinite(end)) ends.push_back(end);
+    if (key.usual) ends.insert(ends.end(), {key.usual->low, key.usual->high});
+    return ends.empty() || draw.chance(0.5) ? key.example : fmt::format("{}", ends[some(draw, ends.size())]);
+}
+
+/// A key of the table of keys, one time in five of a table that the scene has not.
+void set_a_key(Lines& lines, Draw& draw)
+{
+    SectionInput section;
+    const std::vector<KeyGroup> groups = key_groups(section);
+    const KeyGroup& group = groups[some(draw, groups.size())];
+    const std::string table = group.in_list() ? "[[" + group.name + "]]" : "[" + group.name + "]";
+    const bool there = std::find(lines.begin(), lines.end(), table) != lines.end();
+    if (group.name.empty() || group.name == "mesh" || (!there && draw.chance(0.8))) return;
+    const Key& key = group.keys[some(draw, group.keys.size())];
+    put(lines, table, key.spellings()[some(draw, key.spellings().size())] + " = " + some_value(group, key, draw));
+}
+
 std::string example(Draw& draw)
 {
-    const std::string name =
-        draw.word({"reference_dam", "reference_dam_profile", "reference_dam_ruptured", "reference_dam_printed_uplift",
-                   "reference_dam_goldgruber", "triangular_dam", "cracked_upper_block", "koyna", "pine_flat"});
+    const std::string name = draw.word({"reference_dam",
+                                        "reference_dam_profile",
+                                        "reference_dam_ruptured",
+                                        "reference_dam_printed_uplift",
+                                        "reference_dam_goldgruber",
+                                        "triangular_dam",
+                                        "cracked_upper_block",
+                                        "koyna",
+                                        "pine_flat",
+                                        "anchored_dam",
+                                        "bonded_dam",
+                                        "flexible_block",
+                                        "inclined_block",
+                                        "lifts_dam",
+                                        "opening_water",
+                                        "reference_dam_rock_mass",
+                                        "rock_slope",
+                                        "rock_wedge",
+                                        "seam_dam",
+                                        "sequence"});
     return read_file(std::filesystem::path(source_dir()) / "examples" / (name + ".toml"));
 }
 
@@ -171,9 +219,11 @@ SceneFiles mutated_scene(Draw& draw)
         return table == "[expect]" || table == "[[motion.record]]" || table == "[mesh]";
     });
     const double contact_size = draw.between(3, 8), size = draw.between(8, 20);
+    const bool wedge = std::find(lines.begin(), lines.end(), "[wedge]") != lines.end();
     put(lines, "[sliding]", "run_out_max_s = 2");
-    put(lines, "[dam]", "young_modulus_GPa = 25"); // not all examples need one
+    if (!wedge) put(lines, "[dam]", "young_modulus_GPa = 25"); // not all examples need one
     for (int k = draw.whole(0, 3); k > 0; --k) add_what_makes_it_hard(lines, draw);
+    for (int k = draw.whole(0, 3); k > 0; --k) set_a_key(lines, draw);
     for (int k = draw.whole(0, 3); k > 0; --k) {
         const double kind = draw.unit();
         if (kind < 0.6)
@@ -185,13 +235,25 @@ SceneFiles mutated_scene(Draw& draw)
         else
             lose_a_table(lines, draw);
     }
-    put(lines, "[mesh]", fmt::format("contact_size_m = {:.4g}", contact_size)); // never so fine that it takes minutes
-    put(lines, "[mesh]", fmt::format("size_m = {:.4g}", size));
+    if (!wedge) {
+        put(lines, "[mesh]",
+            fmt::format("contact_size_m = {:.4g}", contact_size)); // never so fine that it takes minutes
+        put(lines, "[mesh]", fmt::format("size_m = {:.4g}", size));
+    }
     SceneFiles files;
     random_motion(draw, files);
-    for (const std::string& line : lines) files.scene += line + "\n";
-    files.scene += "[[motion.record]]\nname = \"drawn\"\nhorizontal = \"horizontal.csv\"\n";
-    if (!files.vertical.empty()) files.scene += "vertical = \"vertical.csv\"\n";
+    std::vector<std::string> records{"drawn"};
+    for (std::string& line : lines) {
+        if (line.starts_with("sequence = ")) {
+            line = "sequence = [\"drawn\", \"again\"]";
+            records = {"drawn", "again"};
+        }
+        files.scene += line + "\n";
+    }
+    for (const std::string& record : records) {
+        files.scene += fmt::format("[[motion.record]]\nname = \"{}\"\nhorizontal = \"horizontal.csv\"\n", record);
+        if (!files.vertical.empty()) files.scene += "vertical = \"vertical.csv\"\n";
+    }
     files.spoilt = true;
     return files;
 }

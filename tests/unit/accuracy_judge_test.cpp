@@ -1,6 +1,6 @@
 // The ladder's judgement: orders, limits, errors, front and choice from results that are made up, so that each is known.
-#include "analysis/accuracy/ladder.hpp"
 #include "analysis/accuracy/accuracy.hpp"
+#include "analysis/accuracy/ladder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -212,7 +212,7 @@ TEST(AccuracyJudge, DeviationContainsWhatTheTopLeavesOpenAndTheWorstRecordCounts
     std::vector<RungResult> results = climbed();
     for (RungResult& r : results) r.slip.push_back(2.0 * r.slip[0] + (r.rung.modes ? 0.01 : 0.0));
     const Judgement j = judge_rungs(results, 0.02);
-    EXPECT_EQ(j.record, 1u); // the larger slip
+    EXPECT_EQ(j.motion, 1u); // the larger slip
     EXPECT_GT(*j.top_error, 0.0);
     for (const RungVerdict& v : j.rungs) EXPECT_GE(*v.deviation, *j.top_error);
     const RungResult& reduced =

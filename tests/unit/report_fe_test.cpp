@@ -41,7 +41,7 @@ FeReportRun make_run()
     for (const RecordPair& pair : out.records) {
         const GroundMotion motion = ground_motion(out.scene, pair);
         out.runs.push_back(
-            {pair.files.name, model.run(motion), slide_model(out.scene, rigid, motion, 1), {}, 1, false, {}});
+            {{pair.files.name}, model.run(motion), slide_model(out.scene, rigid, motion, 1), {}, {}});
         report.add(out.runs.back(), motion);
     }
     out.page = report.page(out.runs, {"a message"});

@@ -69,13 +69,13 @@ std::vector<const Scene*> scenes_of(const AblationPlan& plan)
 constexpr std::size_t bar_parts = 1000; ///< of one scene
 
 /// Runs of a scene whose model could not be made.
-SceneRuns without_model(Status status, const std::string& why, std::size_t records)
+SceneRuns without_model(Status status, const std::string& why, std::size_t motions)
 {
-    RecordOutcome none;
+    MotionOutcome none;
     none.status = status;
     none.message = why;
     SceneRuns runs;
-    runs.records.assign(records, none);
+    runs.motions.assign(motions, none);
     return runs;
 }
 
@@ -104,6 +104,7 @@ AblationRuns run_ablations(const AblationPlan& plan, const Records& records, int
 {
     const std::vector<const Scene*> scenes = scenes_of(plan);
     AblationRuns runs;
+    runs.motions = motion_names(plan.full, *records);
     runs.jobs = thread_count(jobs);
     runs.scenes.resize(scenes.size());
     if (plan.method == Method::finite_elements)
@@ -126,9 +127,9 @@ AblationRuns run_ablations(const AblationPlan& plan, const Records& records, int
             runs.scenes[i] = runs.step ? run_fe(ready, *runs.step, watch, done) : run_rigid(ready, watch);
             if (runs.step) runs.scenes[i].set_up_seconds += seconds; // of a dam's own period
         } catch (const NotConverged& error) {
-            runs.scenes[i] = without_model(Status::not_resolved, error.diagnostic().problem, records->size());
+            runs.scenes[i] = without_model(Status::not_resolved, error.diagnostic().problem, runs.motions.size());
         } catch (const Interrupted& stopped) { // in its set-up
-            runs.scenes[i] = without_model(Status::interrupted, stopped.what(), records->size());
+            runs.scenes[i] = without_model(Status::interrupted, stopped.what(), runs.motions.size());
         }
         watch.results_at_hand();
         done(1.0);
@@ -153,9 +154,9 @@ std::optional<double> crest_motion(const fe2d::RunHistory& history)
 }
 
 /// @param run_out  the scene's sliding.run_out_max [s]; without one nothing is known to rest
-RecordOutcome outcome(const fe2d::RunResult& r, double run_out)
+MotionOutcome outcome(const fe2d::RunResult& r, double run_out)
 {
-    RecordOutcome o;
+    MotionOutcome o;
     o.status = r.status;
     if (r.status != Status::at_rest && r.status != Status::sliding_at_end) {
         o.message = r.message;
@@ -168,10 +169,10 @@ RecordOutcome outcome(const fe2d::RunResult& r, double run_out)
     return o;
 }
 
-/// Passes of all records at both steps.
-double whole_work(const AblationStep& step, std::size_t records)
+/// Passes of all motions at both steps.
+double whole_work(const AblationStep& step, std::size_t motions)
 {
-    return static_cast<double>(records) * (std::exp2(step.halvings) + std::exp2(step.other));
+    return static_cast<double>(motions) * (std::exp2(step.halvings) + std::exp2(step.other));
 }
 
 } // namespace
@@ -181,12 +182,12 @@ SceneRuns run_fe(const Ready& ready, const AblationStep& step, const Watch& watc
 {
     SceneRuns runs;
     Scene scene = ready.scene;
-    const std::vector<RecordPair>& records = ready.records();
+    const std::size_t motions = motion_names(scene, ready.records()).size();
     const ProcessorClock clock;
     fe2d::RunOptions options = ready.run_options(watch);
     double before = 0.0, weight = std::exp2(step.halvings);
     options.progress = [&](const fe2d::RunProgress& p) {
-        done((before + weight * std::min(1.0, p.time / p.end)) / whole_work(step, records.size()));
+        done((before + weight * std::min(1.0, p.time / p.end)) / whole_work(step, motions));
         return watch.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
     };
     scene.time.substeps = step.halvings;
@@ -201,20 +202,19 @@ SceneRuns run_fe(const Ready& ready, const AblationStep& step, const Watch& watc
         before += weight;
         return result;
     };
-    for (const RecordPair& pair : records) {
-        runs.records.emplace_back();
-        if (watch.stop_asked()) continue;
-        const GroundMotion motion = ready.motion(pair, 1.0, polarities_of(ready.scene).front());
-        const ProcessorClock run_clock;
-        const fe2d::RunResult result = run(model, motion, step.halvings);
-        const double seconds = run_clock.seconds();
-        if (!result.stages.empty()) runs.critical_friction = result.stages.back().critical_friction;
-        runs.records.back() = outcome(result, scene.sliding.run_out_max);
-        runs.records.back().seconds = seconds;
-        if (runs.records.back().slip)
-            runs.records.back().slip_other_step =
-                outcome(run(other, motion, step.other), scene.sliding.run_out_max).slip;
-    }
+    for (const RecordPair& pair : ready.records())
+        for (const GroundMotion& motion : ready.motions(pair)) {
+            MotionOutcome& of_motion = runs.motions.emplace_back();
+            if (watch.stop_asked()) continue;
+            const ProcessorClock run_clock;
+            const fe2d::RunResult result = run(model, motion, step.halvings);
+            const double seconds = run_clock.seconds();
+            if (!result.stages.empty()) runs.critical_friction = result.stages.back().critical_friction;
+            of_motion = outcome(result, scene.sliding.run_out_max);
+            of_motion.seconds = seconds;
+            if (of_motion.slip)
+                of_motion.slip_other_step = outcome(run(other, motion, step.other), scene.sliding.run_out_max).slip;
+        }
     return runs;
 }
 
@@ -227,12 +227,13 @@ AblationStep choose_step(const Ready& full, const Watch& watch)
     step.halvings = full.scene.time.substeps.value_or(0);
     if (step.chosen) {
         const fe2d::EarthquakeRun model(full.scene, full.run_options(watch));
-        for (const RecordPair& pair : full.records()) {
-            const fe2d::RunResult r = model.run(full.motion(pair, 1.0, polarities_of(full.scene).front()));
-            step.halvings = std::max({step.halvings, least_halvings, r.halvings});
-            step.missed = step.missed || r.status == Status::tolerance_missed;
-            if (watch.stop_asked()) break;
-        }
+        for (const RecordPair& pair : full.records())
+            for (const GroundMotion& motion : full.motions(pair)) {
+                if (watch.stop_asked()) break;
+                const fe2d::RunResult r = model.run(motion);
+                step.halvings = std::max({step.halvings, least_halvings, r.halvings});
+                step.missed = step.missed || r.status == Status::tolerance_missed;
+            }
     }
     step.other = step.halvings > 0 ? step.halvings - 1 : 1;
     step.largest_dt = dt / std::exp2(step.halvings);
@@ -267,9 +268,9 @@ std::string sentence(const sliding::SlideResult& r, const RigidModel& model)
     return r.status == Status::runs_away || r.status == Status::rocks_first ? r.notes.back() : r.notes.front();
 }
 
-RecordOutcome outcome(const sliding::SlideResult& r, const RigidModel& model)
+MotionOutcome outcome(const sliding::SlideResult& r, const RigidModel& model)
 {
-    RecordOutcome o;
+    MotionOutcome o;
     o.status = r.status;
     o.message = sentence(r, model);
     o.still_sliding = r.status == Status::sliding_at_end;
@@ -288,15 +289,15 @@ SceneRuns run_rigid(const Ready& ready, const Watch& watch)
     });
     runs.yield_acceleration = model.downstream.law.constant;
     runs.critical_friction = model.critical_friction;
-    for (const RecordPair& pair : ready.records()) {
-        runs.records.emplace_back();
-        if (watch.stop_asked()) continue;
-        const GroundMotion motion = ready.motion(pair, 1.0, polarities_of(ready.scene).front());
-        sliding::SlideResult result;
-        const double seconds = shortest_time([&] { result = slide_model(ready.scene, model, motion, 1); });
-        runs.records.back() = outcome(result, model);
-        runs.records.back().seconds = seconds;
-    }
+    for (const RecordPair& pair : ready.records())
+        for (const GroundMotion& motion : ready.motions(pair)) {
+            MotionOutcome& of_motion = runs.motions.emplace_back();
+            if (watch.stop_asked()) continue;
+            sliding::SlideResult result;
+            const double seconds = shortest_time([&] { result = slide_model(ready.scene, model, motion, 1); });
+            of_motion = outcome(result, model);
+            of_motion.seconds = seconds;
+        }
     return runs;
 }
 

@@ -45,8 +45,8 @@ AblationPlan make_ablations(const Scene& scene, Method method, const std::vector
 
 /// The runs of an ablation, as data.
 
-/// One scene under one record. Empty: the run does not give it.
-struct RecordOutcome {
+/// One scene under one motion. Empty: the run does not give it.
+struct MotionOutcome {
     Status status = Status::interrupted;
     std::string message;                   ///< one sentence where there is no slip to compare
     std::optional<double> slip;            ///< final, positive downstream, of runs that can be compared [m]
@@ -57,9 +57,9 @@ struct RecordOutcome {
     double seconds = 0.0; ///< of the processor for this run at AblationStep::halvings, without the set-up
 };
 
-/// One scene under all records.
+/// One scene under all motions.
 struct SceneRuns {
-    std::vector<RecordOutcome> records;
+    std::vector<MotionOutcome> motions;       ///< as AblationRuns::motions
     std::optional<double> yield_acceleration; ///< of the rigid block [m/s^2]
     std::optional<double> critical_friction;  ///< least mu of static equilibrium [-]
     std::int64_t unknowns = 0;                ///< of the FE model, water included; 0: rigid block
@@ -71,8 +71,8 @@ struct AblationStep {
     int halvings = 0;        ///< steps dt / 2^k of every run
     int other = 0;           ///< k of the runs that tell the error of the step: one less, or 1 beside 0
     bool chosen = false;     ///< by time.slip_tolerance on the full scene; else the scene's time.substeps
-    double largest_dt = 0.0; ///< of the steps, over the records [s]
-    bool missed = false;     ///< chosen, but time.slip_tolerance is not met by it for some record
+    double largest_dt = 0.0; ///< of the steps, over the motions [s]
+    bool missed = false;     ///< chosen, but time.slip_tolerance is not met by it for some motion
 };
 
 /// Error of a difference that is linear in slips, from the same difference at the other step, by first order, the worst
@@ -80,6 +80,7 @@ struct AblationStep {
 double difference_error(const AblationStep& step, double at_step, double at_other);
 
 struct AblationRuns {
+    std::vector<MotionName> motions;  ///< that every scene is run with
     std::vector<SceneRuns> scenes;    ///< the full one, each removal, the simplest if there is one
     std::optional<AblationStep> step; ///< of FE runs
     int jobs = 1;

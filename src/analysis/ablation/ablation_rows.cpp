@@ -7,7 +7,7 @@ namespace damslip {
 
 namespace {
 
-std::string remark_of(const AblationRow& row, const RecordOutcome& full, const RecordOutcome& own)
+std::string remark_of(const AblationRow& row, const MotionOutcome& full, const MotionOutcome& own)
 {
     if (!own.message.empty()) return own.message;
     if (!full.slip && own.slip) return "the full scene has no slip to compare with";
@@ -16,8 +16,8 @@ std::string remark_of(const AblationRow& row, const RecordOutcome& full, const R
     return "";
 }
 
-AblationRow row_of(const std::string& name, const std::optional<AblationStep>& step, const RecordOutcome& full,
-                   const RecordOutcome& own, bool is_full)
+AblationRow row_of(const std::string& name, const std::optional<AblationStep>& step, const MotionOutcome& full,
+                   const MotionOutcome& own, bool is_full)
 {
     AblationRow row;
     row.name = name;
@@ -68,13 +68,13 @@ std::vector<std::string> scene_names(const AblationPlan& plan)
     return names;
 }
 
-std::vector<AblationRow> rows_of(const AblationPlan& plan, const AblationRuns& runs, std::size_t record)
+std::vector<AblationRow> rows_of(const AblationPlan& plan, const AblationRuns& runs, std::size_t motion)
 {
     const std::vector<std::string> names = scene_names(plan);
-    const RecordOutcome& full = runs.scenes.front().records[record];
+    const MotionOutcome& full = runs.scenes.front().motions[motion];
     std::vector<AblationRow> rows;
     for (std::size_t i = 0; i < runs.scenes.size(); ++i)
-        rows.push_back(row_of(names[i], runs.step, full, runs.scenes[i].records[record], i == 0));
+        rows.push_back(row_of(names[i], runs.step, full, runs.scenes[i].motions[motion], i == 0));
     return rows;
 }
 
@@ -93,14 +93,14 @@ std::optional<double> sum_of_changes(const AblationPlan& plan, const std::vector
 SceneSeconds seconds_of(const SceneRuns& scene)
 {
     SceneSeconds seconds{scene.set_up_seconds, 0.0};
-    for (const RecordOutcome& r : scene.records) seconds.runs += r.seconds;
+    for (const MotionOutcome& r : scene.motions) seconds.runs += r.seconds;
     return seconds;
 }
 
 std::optional<double> saved_seconds(const SceneRuns& full, const SceneRuns& own)
 {
     const auto whole = [](const SceneRuns& s) {
-        return std::all_of(s.records.begin(), s.records.end(), [](const RecordOutcome& r) { return r.slip; });
+        return std::all_of(s.motions.begin(), s.motions.end(), [](const MotionOutcome& r) { return r.slip; });
     };
     if (!whole(full) || !whole(own)) return std::nullopt;
     return seconds_of(full).sum() - seconds_of(own).sum();

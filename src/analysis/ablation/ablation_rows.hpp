@@ -16,7 +16,7 @@ struct Change {
 };
 Change change_from(const std::optional<double>& full, const std::optional<double>& value);
 
-/// One scene under one record.
+/// One scene under one motion.
 struct AblationRow {
     std::string name; ///< of the effect that is removed; "all effects", "all removed"
     Status status = Status::interrupted;
@@ -35,21 +35,21 @@ inline const char* const simplest_name = "(all removed)";
 /// Names of AblationRuns::scenes.
 std::vector<std::string> scene_names(const AblationPlan& plan);
 
-/// One row for each scene. @param record  place among the records
-std::vector<AblationRow> rows_of(const AblationPlan& plan, const AblationRuns& runs, std::size_t record);
+/// One row for each scene. @param motion  place in AblationRuns::motions
+std::vector<AblationRow> rows_of(const AblationPlan& plan, const AblationRuns& runs, std::size_t motion);
 
 /// Sum of the slip changes of removals that are no part of another; empty where one of them has none, or a
 /// lower bound only [m].
 std::optional<double> sum_of_changes(const AblationPlan& plan, const std::vector<AblationRow>& rows);
 
-/// Seconds of a scene's set-up and of its runs over all records.
+/// Seconds of a scene's set-up and of its runs over all motions.
 struct SceneSeconds {
     double set_up = 0.0, runs = 0.0;
     double sum() const { return set_up + runs; }
 };
 SceneSeconds seconds_of(const SceneRuns& scene);
 
-/// Seconds that a scene takes less than the full one; empty where one of them has not run to the end of all records [s].
+/// Seconds that a scene takes less than the full one; empty where one of them has not run to the end of all motions [s].
 std::optional<double> saved_seconds(const SceneRuns& full, const SceneRuns& own);
 
 } // namespace damslip

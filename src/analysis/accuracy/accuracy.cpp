@@ -110,20 +110,20 @@ struct Cross {
 };
 
 /// The step's limit on the finest mesh that has a row, plus what the mesh still changes at the column's step.
-std::optional<ModelLimit> limit_of(const std::vector<RungResult>& results, RungWater water, std::size_t records)
+std::optional<ModelLimit> limit_of(const std::vector<RungResult>& results, RungWater water, std::size_t motions)
 {
     const Cross cross(results, water);
     ModelLimit limit;
-    for (std::size_t record = 0; record < records; ++record) {
-        const auto order = observed_order(slips_of(step_row(results, water), record));
-        const auto step = extrapolated(slips_of(cross.row, record), 2.0, order);
+    for (std::size_t motion = 0; motion < motions; ++motion) {
+        const auto order = observed_order(slips_of(step_row(results, water), motion));
+        const auto step = extrapolated(slips_of(cross.row, motion), 2.0, order);
         if (!step) return std::nullopt;
         limit.model = model_of(cross.row.front()->rung);
         limit.slip.push_back(step->value);
         limit.open.push_back(0.5 * std::abs(step->correction));
         if (!cross.corner) continue;
-        const auto mesh = extrapolated(slips_of(cross.column, record));
-        limit.slip.back() += mesh->value - cross.corner->slip[record];
+        const auto mesh = extrapolated(slips_of(cross.column, motion));
+        limit.slip.back() += mesh->value - cross.corner->slip[motion];
         limit.open.back() += 0.5 * std::abs(mesh->correction);
         limit.mesh_known = true;
     }
@@ -132,7 +132,7 @@ std::optional<ModelLimit> limit_of(const std::vector<RungResult>& results, RungW
 
 /// Errors against the plain rung with the same step, in the order of `size`, which falls.
 template <class Size>
-std::optional<double> order_of_variants(const std::vector<RungResult>& results, RungWater water, std::size_t record,
+std::optional<double> order_of_variants(const std::vector<RungResult>& results, RungWater water, std::size_t motion,
                                         double ratio, Size&& size)
 {
     std::vector<std::pair<double, double>> errors; // size, slip - exact
@@ -143,7 +143,7 @@ std::optional<double> order_of_variants(const std::vector<RungResult>& results, 
         plain.modes.reset();
         plain.tangential_stiffness.reset();
         for (const RungResult& p : results)
-            if (p.done() && p.rung == plain) errors.emplace_back(*size(r.rung), r.slip[record] - p.slip[record]);
+            if (p.done() && p.rung == plain) errors.emplace_back(*size(r.rung), r.slip[motion] - p.slip[motion]);
     }
     std::sort(errors.begin(), errors.end());
     std::vector<double> falling;
@@ -155,15 +155,15 @@ std::optional<double> order_of_variants(const std::vector<RungResult>& results, 
     return order_of_errors(falling, ratio);
 }
 
-void add_orders(const std::vector<RungResult>& results, RungWater water, std::size_t record, ModelLimit& limit)
+void add_orders(const std::vector<RungResult>& results, RungWater water, std::size_t motion, ModelLimit& limit)
 {
     const Cross cross(results, water);
     const auto row = cross.row.size() > 2 ? cross.row : step_row(results, water);
-    limit.order_step = observed_order(slips_of(row, record));
-    if (cross.corner) limit.order_mesh = observed_order(slips_of(cross.column, record));
+    limit.order_step = observed_order(slips_of(row, motion));
+    if (cross.corner) limit.order_mesh = observed_order(slips_of(cross.column, motion));
     limit.order_penalty =
-        order_of_variants(results, water, record, 10.0, [](const Rung& r) { return r.tangential_stiffness; });
-    limit.order_modes = order_of_variants(results, water, record, 2.0, [](const Rung& r) {
+        order_of_variants(results, water, motion, 10.0, [](const Rung& r) { return r.tangential_stiffness; });
+    limit.order_modes = order_of_variants(results, water, motion, 2.0, [](const Rung& r) {
         return r.modes ? std::optional<double>(*r.modes) : std::nullopt;
     });
 }
@@ -175,13 +175,13 @@ const ModelLimit* find(const std::vector<ModelLimit>& models, const Rung& rung)
     return at == models.end() ? nullptr : &*at;
 }
 
-/// Estimate for one record; nothing where the model has no limit.
-std::optional<double> error_of(const RungResult& r, const ModelLimit* limit, std::size_t record)
+/// Estimate for one motion; nothing where the model has no limit.
+std::optional<double> error_of(const RungResult& r, const ModelLimit* limit, std::size_t motion)
 {
     if (r.rung.family == RungFamily::rigid && r.rung.scheme != RigidScheme::slammer)
         return 0.0; // events located exactly
     if (!limit) return std::nullopt;
-    return std::max(std::abs(r.slip[record] - limit->slip[record]), limit->open[record]);
+    return std::max(std::abs(r.slip[motion] - limit->slip[motion]), limit->open[motion]);
 }
 
 void judge_rung(const RungResult& r, const RungResult& top, const ModelLimit* limit, const ModelLimit* top_limit,
@@ -192,11 +192,11 @@ void judge_rung(const RungResult& r, const RungResult& top, const ModelLimit* li
     verdict.model_difference = own - (top_limit ? top_limit->slip[shown] : top.slip[shown]);
     verdict.off_top = r.slip[shown] - top.slip[shown];
     double deviation = 0.0;
-    for (std::size_t record = 0; record < r.slip.size(); ++record) {
-        const auto open = error_of(top, top_limit, record);
+    for (std::size_t motion = 0; motion < r.slip.size(); ++motion) {
+        const auto open = error_of(top, top_limit, motion);
         if (!open) return;
-        const double size = std::max(std::abs(top.slip[record]), least_slip);
-        deviation = std::max(deviation, (std::abs(r.slip[record] - top.slip[record]) + *open) / size);
+        const double size = std::max(std::abs(top.slip[motion]), least_slip);
+        deviation = std::max(deviation, (std::abs(r.slip[motion] - top.slip[motion]) + *open) / size);
     }
     verdict.deviation = deviation;
 }
@@ -223,12 +223,12 @@ Judgement judge_rungs(const std::vector<RungResult>& results, double tolerance)
     j.top = top_rung(results);
     if (!j.top) return j;
     const RungResult& top = results[*j.top];
-    for (std::size_t record = 0; record < top.slip.size(); ++record)
-        if (std::abs(top.slip[record]) > std::abs(top.slip[j.record])) j.record = record;
+    for (std::size_t motion = 0; motion < top.slip.size(); ++motion)
+        if (std::abs(top.slip[motion]) > std::abs(top.slip[j.motion])) j.motion = motion;
     add_rigid_limits(results, j.models);
     for (const RungWater water : {RungWater::dry, RungWater::hydrostatic, RungWater::added_mass, RungWater::acoustic})
         if (auto limit = limit_of(results, water, top.slip.size())) {
-            add_orders(results, water, j.record, *limit);
+            add_orders(results, water, j.motion, *limit);
             j.models.push_back(std::move(*limit));
         }
     const ModelLimit* top_limit = find(j.models, top.rung);
@@ -236,7 +236,7 @@ Judgement judge_rungs(const std::vector<RungResult>& results, double tolerance)
     std::vector<std::optional<double>> deviation;
     for (std::size_t i = 0; i < results.size(); ++i) {
         if (results[i].done())
-            judge_rung(results[i], top, find(j.models, results[i].rung), top_limit, j.record, j.rungs[i]);
+            judge_rung(results[i], top, find(j.models, results[i].rung), top_limit, j.motion, j.rungs[i]);
         seconds.push_back(results[i].seconds);
         deviation.push_back(j.rungs[i].deviation);
     }

@@ -15,16 +15,16 @@ namespace damslip {
 /// The slip that the rungs of one model tend to, and how fast.
 struct ModelLimit {
     std::string model;        ///< model_of the rungs
-    std::vector<double> slip; ///< of each record [m]
-    /// What the extrapolation itself cannot resolve, of each record: half of what it adds [m].
+    std::vector<double> slip; ///< of each motion [m]
+    /// What the extrapolation itself cannot resolve, of each motion: half of what it adds [m].
     std::vector<double> open;
-    /// Observed orders, of the controlling record: in the step, the element size, the penalty's inverse and the number of
+    /// Observed orders, of the controlling motion: in the step, the element size, the penalty's inverse and the number of
     /// modes [-].
     std::optional<double> order_step, order_mesh, order_penalty, order_modes;
     bool mesh_known = false; ///< there are at least two meshes; else the limit is that of the scene's mesh
 };
 
-/// One rung beside the others, by record the worst.
+/// One rung beside the others, by motion the worst.
 struct RungVerdict {
     /// Estimate of what steps, elements, penalty and modes leave open: |slip - limit of the model|, at least the limit's
     /// `open` [m]. Nothing for regressions and models with one rung.
@@ -39,12 +39,12 @@ struct RungVerdict {
 
 struct Judgement {
     std::optional<std::size_t> top; ///< of the results; none: no rung is done
-    std::size_t record = 0;         ///< whose figures in metres are shown: the largest slip of the top rung
+    std::size_t motion = 0;         ///< whose figures in metres are shown: the largest slip of the top rung
     std::vector<ModelLimit> models; ///< of FE models with at least two steps
     std::vector<RungVerdict> rungs; ///< by result
     /// A rung above the top that ran and has no final slip: what the top says is then in doubt, and none is chosen.
     std::optional<std::size_t> contradiction;
-    std::optional<double> top_error;   ///< over the top's slip, the worst record [-]
+    std::optional<double> top_error;   ///< over the top's slip, the worst motion [-]
     std::optional<std::size_t> choice; ///< cheapest rung within the tolerance; none: the top is not within it either
 };
 

@@ -40,15 +40,15 @@ bool of_model(const RungResult& r, RungWater water)
     return r.done() && r.rung.family == RungFamily::finite_elements && r.rung.water == water && r.rung.plain();
 }
 
-/// Does what the finest rung of a row or column leaves open no longer matter, for every record, by an order that can be
+/// Does what the finest rung of a row or column leaves open no longer matter, for every motion, by an order that can be
 /// believed?
 /// @param elsewhere  row that shows an order where this one has two rungs only; may be empty
 bool settled(const std::vector<const RungResult*>& row, double tolerance,
              const std::vector<const RungResult*>& elsewhere = {})
 {
-    for (std::size_t record = 0; record < row.back()->slip.size(); ++record) {
-        const std::vector<double> slips = slips_of(row, record);
-        const std::optional<Limit> limit = extrapolated(slips, 2.0, observed_order(slips_of(elsewhere, record)));
+    for (std::size_t motion = 0; motion < row.back()->slip.size(); ++motion) {
+        const std::vector<double> slips = slips_of(row, motion);
+        const std::optional<Limit> limit = extrapolated(slips, 2.0, observed_order(slips_of(elsewhere, motion)));
         if (!limit || !limit->plausible() ||
             std::abs(limit->correction) > tolerance * std::max(std::abs(slips.back()), settled_slip))
             return false;
@@ -240,10 +240,10 @@ std::vector<const RungResult*> fine_row(const std::vector<RungResult>& results, 
     return best;
 }
 
-std::vector<double> slips_of(const std::vector<const RungResult*>& rungs, std::size_t record)
+std::vector<double> slips_of(const std::vector<const RungResult*>& rungs, std::size_t motion)
 {
     std::vector<double> slips;
-    for (const RungResult* r : rungs) slips.push_back(r->slip[record]);
+    for (const RungResult* r : rungs) slips.push_back(r->slip[motion]);
     return slips;
 }
 

@@ -20,7 +20,7 @@ struct LadderFacts {
     std::vector<std::string> regressions; ///< ids of the best valid ones, and "ensemble"; none: none is valid
     bool vertical = false;                ///< some record has a vertical component that counts
     bool slammer = false;                 ///< the scene asks for SLAMMER's scheme
-    bool rocks = false;                   ///< in some record the block tips before it slides
+    bool rocks = false;                   ///< in some motion the block tips before it slides
     std::vector<RungWater> waters;        ///< FE models from poor to rich; none: no finite elements
     bool reducible = false;               ///< the first of them can run on few modes
     std::vector<double> alphas;           ///< of HHT, other than the scene's [-]
@@ -62,8 +62,8 @@ std::vector<const RungResult*> fine_row(const std::vector<RungResult>& results, 
 /// Column of one FE model: results on all meshes with the step that has most of them, from coarse to fine.
 std::vector<const RungResult*> mesh_column(const std::vector<RungResult>& results, RungWater water);
 
-/// Slips of one record [m].
-std::vector<double> slips_of(const std::vector<const RungResult*>& rungs, std::size_t record);
+/// Slips of one motion [m].
+std::vector<double> slips_of(const std::vector<const RungResult*>& rungs, std::size_t motion);
 
 /// Seconds a rung will take, from the nearest of its model: steps times unknowns^1.25; nothing to go by: nothing.
 std::optional<double> expected_seconds(const Rung& rung, const std::vector<RungResult>& so_far);

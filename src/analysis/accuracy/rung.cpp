@@ -159,6 +159,11 @@ std::string model_of(const Rung& rung)
     return fmt::format("{}{}", water_model(rung.water), rock_word(rung.rock));
 }
 
+double RungResult::largest_slip() const
+{
+    return *std::max_element(slip.begin(), slip.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+}
+
 std::string_view water_word(RungWater water)
 {
     constexpr std::array<std::string_view, 4> words{"dry", "hydrostatic", "added mass", "acoustic"};

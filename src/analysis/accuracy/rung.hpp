@@ -76,21 +76,22 @@ enum class RungOutcome {
 struct RungResult {
     Rung rung;
     RungOutcome outcome = RungOutcome::failed;
-    Status status = Status::not_resolved; ///< of what ran, the first record that does not come to rest
+    Status status = Status::not_resolved; ///< of what ran, the first motion that does not come to rest
     std::string remark;                   ///< what the status means here, or why there is none
-    std::vector<double> slip;             ///< at the end, of each record, positive downstream [m]; `done` only
-    std::vector<double> low, high;        ///< 16 and 84 % of a regression [m]; empty: no band
+    std::vector<double> slip;      ///< at the end, of each of motion_names(), positive downstream [m]; `done` only
+    std::vector<double> low, high; ///< 16 and 84 % of a regression [m]; empty: no band
 
-    // Over all records, processor time: what a user pays who runs this rung alone: the scene read, models made, records
+    // Over all motions, processor time: what a user pays who runs this rung alone: the scene read, models made, records
     // run.
     double seconds = 0.0;        ///< median of the repeats [s]; `skipped`: expected
-    double set_up_seconds = 0.0; ///< of them, before the first record is run [s]
+    double set_up_seconds = 0.0; ///< of them, before the first motion is run [s]
     int repeats = 0;
     std::optional<double> bytes;          ///< growth of the resident memory to its peak; none: not measured
     std::optional<double> time_step;      ///< the smallest used [s]
     std::optional<std::int64_t> unknowns; ///< of the FE model, the water's included; modes of a reduced run
-    std::optional<std::int64_t> steps;    ///< of all records, of the pass that counts
+    std::optional<std::int64_t> steps;    ///< of all motions, of the pass that counts
     bool done() const { return outcome == RungOutcome::done; }
+    double largest_slip() const; ///< with its sign; `done` only [m]
     bool ran() const { return outcome == RungOutcome::done || outcome == RungOutcome::failed; }
 };
 

@@ -59,7 +59,7 @@ std::string first_line(const std::string& text)
     return text.substr(0, text.find('\n'));
 }
 
-/// Takes over one record's run. @returns false where it gives no slip
+/// Takes over one motion's run. @returns false where it gives no slip
 template <class Run>
 bool take(const Run& run, RungResult& result)
 {
@@ -144,7 +144,7 @@ RungResult RungRunner::run(const Rung& rung) const
             run_rigid(scene, result);
         else
             run_finite_elements(scene, result);
-        if (result.slip.size() == records_->size()) result.outcome = RungOutcome::done;
+        if (result.slip.size() == motion_names(scene_, *records_).size()) result.outcome = RungOutcome::done;
     } catch (const Interrupted& stop) {
         result.outcome = RungOutcome::stopped;
         result.remark = stop.what();
@@ -156,7 +156,7 @@ RungResult RungRunner::run(const Rung& rung) const
         result.status = Status::not_resolved;
         result.remark = first_line(error.diagnostic().problem);
     }
-    if (!result.done()) result.slip = result.low = result.high = {}; // of some records only
+    if (!result.done()) result.slip = result.low = result.high = {}; // of some motions only
     result.seconds = read_seconds_ + clock.seconds();
     result.set_up_seconds += read_seconds_;
     result.bytes = memory.bytes();
@@ -170,6 +170,7 @@ void RungRunner::run_regression(const Rung& rung, RungResult& result) const
     const Ready ready = prepare(scene_, Method::rigid_block, records_);
     const RigidModel model = ready.rigid_model();
     result.set_up_seconds = clock.seconds();
+    const std::size_t polarities = polarities_of(scene_).size();
     for (const RecordPair& pair : ready.records()) {
         const auto slip = regression_slip(rung.regression, ready, pair, model);
         if (!slip) {
@@ -180,10 +181,10 @@ void RungRunner::run_regression(const Rung& rung, RungResult& result) const
             return;
         }
         result.status = Status::at_rest;
-        result.slip.push_back(slip->median);
+        result.slip.insert(result.slip.end(), polarities, slip->median); // regressions know no polarity
         if (slip->low && slip->high) {
-            result.low.push_back(*slip->low);
-            result.high.push_back(*slip->high);
+            result.low.insert(result.low.end(), polarities, *slip->low);
+            result.high.insert(result.high.end(), polarities, *slip->high);
         }
         result.remark = slip->remark;
     }
@@ -196,20 +197,20 @@ void RungRunner::run_rigid(const Scene& given, RungResult& result) const
     const Ready ready = prepare(given, Method::rigid_block, records_);
     const RigidModel model = ready.rigid_model();
     result.set_up_seconds = clock.seconds();
-    for (const RecordPair& pair : ready.records()) {
-        const GroundMotion motion = ready.motion(pair, 1.0, polarities_of(ready.scene).front());
-        const sliding::SlideResult r = result.rung.scheme == RigidScheme::rocking
-                                           ? rock_model(ready.scene, model, motion, 1).slide
-                                           : slide_model(ready.scene, model, motion, 1);
-        result.status = r.status;
-        if (r.status != Status::at_rest) {
-            result.remark = r.notes.empty()                   ? std::string(status_row(r.status).meaning)
-                            : r.status == Status::rocks_first ? r.notes.back()
-                                                              : r.notes.front();
-            return;
+    for (const RecordPair& pair : ready.records())
+        for (const GroundMotion& motion : ready.motions(pair)) {
+            const sliding::SlideResult r = result.rung.scheme == RigidScheme::rocking
+                                               ? rock_model(ready.scene, model, motion, 1).slide
+                                               : slide_model(ready.scene, model, motion, 1);
+            result.status = r.status;
+            if (r.status != Status::at_rest) {
+                result.remark = r.notes.empty()                   ? std::string(status_row(r.status).meaning)
+                                : r.status == Status::rocks_first ? r.notes.back()
+                                                                  : r.notes.front();
+                return;
+            }
+            result.slip.push_back(r.slip);
         }
-        result.slip.push_back(r.slip);
-    }
 }
 
 void RungRunner::run_finite_elements(const Scene& given, RungResult& result) const
@@ -226,23 +227,24 @@ void RungRunner::run_finite_elements(const Scene& given, RungResult& result) con
                                    : full.model().counts.unknowns;
     if (reduced) result.unknowns = *result.rung.modes + 3; // rigid motions
     result.set_up_seconds = clock.seconds();
-    for (const RecordPair& pair : ready.records()) {
-        const GroundMotion motion = ready.motion(pair, 1.0, polarities_of(ready.scene).front());
-        // Without an estimate of the modes left out: the ladder compares with the run that has all of them.
-        const auto reduced_run = [&] { return reduced->run(motion, {}, {}, fe2d::TruncationEstimate::left_out); };
-        if (reduced ? !take(reduced_run(), result) : !take(full.run(motion), result)) return;
-    }
+    for (const RecordPair& pair : ready.records())
+        for (const GroundMotion& motion : ready.motions(pair)) {
+            // Without an estimate of the modes left out: the ladder compares with the run that has all of them.
+            const auto reduced_run = [&] { return reduced->run(motion, {}, {}, fe2d::TruncationEstimate::left_out); };
+            if (reduced ? !take(reduced_run(), result) : !take(full.run(motion), result)) return;
+        }
 }
 
-/// In some record the block tips before it slides.
+/// In some motion the block tips before it slides.
 bool RungRunner::rocks_first() const
 {
     const Ready ready = prepare(scene_, Method::rigid_block, records_);
     const RigidModel model = ready.rigid_model();
-    return model.rocking && std::any_of(ready.records().begin(), ready.records().end(), [&](const RecordPair& pair) {
-               return slide_model(ready.scene, model, ready.motion(pair, 1.0, polarities_of(ready.scene).front()), 1)
-                          .status == Status::rocks_first;
-           });
+    if (!model.rocking) return false;
+    for (const RecordPair& pair : ready.records())
+        for (const GroundMotion& motion : ready.motions(pair))
+            if (slide_model(ready.scene, model, motion, 1).status == Status::rocks_first) return true;
+    return false;
 }
 
 double RungRunner::least_seconds(const Rung& rung) const

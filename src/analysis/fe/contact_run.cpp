@@ -66,16 +66,6 @@ std::optional<double> walked_at_least(Status status, double slip)
     return status == Status::self_excited ? std::optional(std::abs(slip)) : std::nullopt;
 }
 
-std::string ContactRun::label() const
-{
-    return both ? fmt::format("{}, polarity {:+d}", record, polarity) : record;
-}
-
-std::string ContactRun::suffix() const
-{
-    return both ? fmt::format("_{:+d}", polarity) : "";
-}
-
 std::string SlipError::parts() const
 {
     if (std::isnan(step)) return "no error estimate";
@@ -162,9 +152,7 @@ int exit_code_of(const std::vector<ContactRun>& runs)
 ContactRun as_contact_run(const ReducedRecord& r)
 {
     ContactRun run;
-    run.record = r.record;
-    run.polarity = r.polarity;
-    run.both = r.both;
+    static_cast<MotionName&>(run) = r;
     run.mesh = r.mesh;
     run.rigid = r.rigid;
     run.leaves_out = r.leaves_out;

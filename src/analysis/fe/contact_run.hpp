@@ -16,18 +16,12 @@
 namespace damslip {
 
 /// The earthquake of one record, one polarity, with sliding, opening and rocking at the base.
-struct ContactRun {
-    std::string record;
+struct ContactRun : MotionName {
     fe2d::RunResult fe;
     std::optional<sliding::SlideResult> rigid; ///< none where the block slides statically
     std::optional<fe2d::RunResult> exact;      ///< with rigid sticking, where that of `fe` gives way
-    int polarity = 1;                          ///< -1: the record's horizontal component is flipped
-    bool both = false;                         ///< the other polarity was run, too
     MeshError mesh;
     bool leaves_out = false; ///< something that the scene asks for (not_honoured()): no PASS rests on the slip
-
-    std::string label() const;  ///< the record, with its polarity where both were run: "El Centro NS, polarity -1"
-    std::string suffix() const; ///< of file names: "_+1", "_-1"; empty where one polarity was run
 };
 
 /// What is known of the numerical error of a slip [m]; NaN: nothing.
@@ -76,12 +70,9 @@ const ContactRun& worst_of(const std::vector<ContactRun>& runs);
 int exit_code_of(const std::vector<ContactRun>& runs);
 
 /// The earthquake of one record on few modes of the dam.
-struct ReducedRecord {
-    std::string record;
+struct ReducedRecord : MotionName {
     fe2d::ReducedResult result;
     GroundMotion motion;
-    int polarity = 1;  ///< -1: the record's horizontal component is flipped
-    bool both = false; ///< the other polarity was run, too
     MeshError mesh;
     std::optional<sliding::SlideResult> rigid; ///< none where the block slides statically
     bool leaves_out = false;                   ///< as ContactRun::leaves_out

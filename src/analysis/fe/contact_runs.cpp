@@ -29,15 +29,14 @@ fe2d::RunAnswer answer(const Watch& watch)
 } // namespace
 
 ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& watch)
-    : ready_(ready), watch_(watch), meter_(watch), polarities_(polarities_of(ready.scene, options.polarity)),
-      jobs_(options.jobs), options_(ready.run_options(watch)),
-      coarser_(
-          ready, options.mesh_error && !options.start,
-          [this](const fe2d::RunProgress& p) {
-              meter_.reached(share_of_run + (1.0 - share_of_run) * share_of(p));
-              return answer(watch_);
-          },
-          watch)
+    : ready_(ready), watch_(watch), meter_(watch), polarity_(options.polarity), jobs_(options.jobs),
+      options_(ready.run_options(watch)), coarser_(
+                                              ready, options.mesh_error && !options.start,
+                                              [this](const fe2d::RunProgress& p) {
+                                                  meter_.reached(share_of_run + (1.0 - share_of_run) * share_of(p));
+                                                  return answer(watch_);
+                                              },
+                                              watch)
 {
     watch.begin("fe", static_cast<double>(whole()));
     watch.phase("set-up");
@@ -63,39 +62,28 @@ ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& wa
 
 std::size_t ContactRuns::whole() const
 {
-    return ready_.records().size() * polarities_.size();
+    return motion_names(ready_.scene, ready_.records(), polarity_).size();
 }
 
 std::vector<ContactRun> ContactRuns::run(const TakeRun& take)
 {
     std::vector<ContactRun> runs;
+    const std::vector<MotionName> names = motion_names(ready_.scene, ready_.records(), polarity_);
     for (const RecordPair& pair : ready_.records()) {
         if (watch_.stop_asked()) break;
-        std::vector<GroundMotion> motions;
-        std::vector<ContactRun> both = run(pair, motions);
+        const std::vector<GroundMotion> motions = ready_.motions(pair, polarity_);
+        std::vector<ContactRun> both(motions.size());
+        parallel_for(motions.size(), jobs_, [&](std::size_t i) {
+            static_cast<MotionName&>(both[i]) = names[runs.size() + i];
+            both[i].leaves_out = !not_honoured(ready_.scene, methods::fe).empty();
+            run(motions[i], both[i]);
+        });
         for (std::size_t i = 0; i < both.size(); ++i) {
             runs.push_back(std::move(both[i]));
             if (take) take(runs.back(), motions[i]);
         }
     }
     watch_.end();
-    return runs;
-}
-
-/// One record with its polarities beside each other, in their order whatever the threads.
-std::vector<ContactRun> ContactRuns::run(const RecordPair& pair, std::vector<GroundMotion>& motions)
-{
-    std::vector<ContactRun> runs(polarities_.size());
-    motions.resize(polarities_.size());
-    parallel_for(polarities_.size(), jobs_, [&](std::size_t i) {
-        motions[i] = ready_.motion(pair, 1.0, polarities_[i]);
-        ContactRun& r = runs[i];
-        r.record = pair.files.name;
-        r.polarity = polarities_[i];
-        r.both = polarities_.size() > 1;
-        r.leaves_out = !not_honoured(ready_.scene, methods::fe).empty();
-        run(motions[i], r);
-    });
     return runs;
 }
 
@@ -111,7 +99,7 @@ void ContactRuns::run(const GroundMotion& motion, ContactRun& r)
 }
 
 ReducedRuns::ReducedRuns(const Ready& ready, const FeOptions& options, Watch& watch)
-    : ready_(ready), watch_(watch), polarities_(polarities_of(ready.scene, options.polarity)), jobs_(options.jobs),
+    : ready_(ready), watch_(watch), polarity_(options.polarity), jobs_(options.jobs),
       options_(ready.run_options(watch)), modes_(options.modes.value_or(fe2d::default_modes)),
       coarser_(ready, options.mesh_error, options_.progress, watch, modes_)
 {
@@ -127,22 +115,22 @@ ReducedRuns::ReducedRuns(const Ready& ready, const FeOptions& options, Watch& wa
 
 std::size_t ReducedRuns::whole() const
 {
-    return ready_.records().size() * polarities_.size();
+    return motion_names(ready_.scene, ready_.records(), polarity_).size();
 }
 
 std::vector<ReducedRecord> ReducedRuns::run(const TakeRun& take)
 {
     std::vector<ReducedRecord> runs;
     std::atomic<int> done{0};
+    const std::vector<MotionName> names = motion_names(ready_.scene, ready_.records(), polarity_);
     for (const RecordPair& pair : ready_.records()) {
         if (watch_.stop_asked()) break;
-        std::vector<ReducedRecord> both(polarities_.size());
-        parallel_for(polarities_.size(), jobs_, [&](std::size_t i) {
+        std::vector<GroundMotion> motions = ready_.motions(pair, polarity_);
+        std::vector<ReducedRecord> both(motions.size());
+        parallel_for(motions.size(), jobs_, [&](std::size_t i) {
             ReducedRecord& run = both[i];
-            run.record = pair.files.name;
-            run.motion = ready_.motion(pair, 1.0, polarities_[i]);
-            run.polarity = polarities_[i];
-            run.both = polarities_.size() > 1;
+            static_cast<MotionName&>(run) = names[runs.size() + i];
+            run.motion = std::move(motions[i]);
             run.leaves_out = !not_honoured(ready_.scene, methods::reduced).empty();
             run.result = model_->run(run.motion);
             watch_.results_at_hand();

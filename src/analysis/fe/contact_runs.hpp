@@ -82,13 +82,12 @@ public:
     std::vector<ContactRun> run(const TakeRun& take = {});
 
 private:
-    std::vector<ContactRun> run(const RecordPair& pair, std::vector<GroundMotion>& motions);
     void run(const GroundMotion& motion, ContactRun& r);
 
     const Ready& ready_;
     Watch& watch_;
     FeMeter meter_;
-    std::vector<int> polarities_;
+    std::optional<int> polarity_;
     int jobs_;
     fe2d::RunOptions options_;
     CoarserMesh coarser_;
@@ -117,7 +116,7 @@ public:
 private:
     const Ready& ready_;
     Watch& watch_;
-    std::vector<int> polarities_;
+    std::optional<int> polarity_;
     int jobs_;
     fe2d::RunOptions options_;
     int modes_;

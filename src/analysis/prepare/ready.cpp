@@ -109,6 +109,13 @@ GroundMotion Ready::motion(const RecordPair& pair, double scale, int polarity) c
     return plan.on(Effect::vertical_motion) ? motion : horizontal_only(std::move(motion));
 }
 
+std::vector<GroundMotion> Ready::motions(const RecordPair& pair, std::optional<int> asked) const
+{
+    std::vector<GroundMotion> motions;
+    for (const int polarity : polarities_of(scene, asked)) motions.push_back(motion(pair, 1.0, polarity));
+    return motions;
+}
+
 RigidModel Ready::rigid_model(std::optional<CrackRule> crack) const
 {
     return make_rigid_model(scene, seepage->profile_of(scene), crack, crack ? nullptr : statics.get());

@@ -42,8 +42,11 @@ struct Ready {
     const std::vector<RecordPair>& records() const { return *pairs; }
 
     /// Both components of a record on one grid, scaled as scene and record say; the vertical one where the plan has it.
-    /// @param scale  on top of the scene's; @param polarity  as of ground_motion(): motion.polarity is the caller's, by polarities_of()
+    /// @param scale  on top of the scene's; @param polarity  as of ground_motion(): motion.polarity is that of motions()
     GroundMotion motion(const RecordPair& pair, double scale = 1.0, int polarity = 1) const;
+
+    /// The same with each of polarities_of() the scene, or that which is asked for: one record of motion_names().
+    std::vector<GroundMotion> motions(const RecordPair& pair, std::optional<int> asked = {}) const;
 
     /// @param crack  in place of the scene's uplift.crack, if given
     /// @throws InputError, NotConverged  of the seepage

@@ -124,6 +124,26 @@ std::string polarity_words(const std::vector<int>& polarities)
     return polarities.size() > 1 ? "both polarities" : fmt::format("polarity {:+d} alone", polarities.front());
 }
 
+std::string MotionName::label() const
+{
+    return both ? fmt::format("{}, polarity {:+d}", record, polarity) : record;
+}
+
+std::string MotionName::suffix() const
+{
+    return both ? fmt::format("_{:+d}", polarity) : "";
+}
+
+std::vector<MotionName> motion_names(const Scene& scene, const std::vector<RecordPair>& records,
+                                     std::optional<int> asked)
+{
+    const std::vector<int> polarities = polarities_of(scene, asked);
+    std::vector<MotionName> names;
+    for (const RecordPair& pair : records)
+        for (const int polarity : polarities) names.push_back({pair.files.name, polarity, polarities.size() > 1});
+    return names;
+}
+
 GroundMotion ground_motion(const Scene& scene, const RecordPair& pair, double scale, int polarity)
 {
     records::MotionOptions options;

@@ -29,6 +29,20 @@ std::vector<int> polarities_of(const Scene& scene, std::optional<int> asked = {}
 /// "both polarities", "polarity -1 alone"
 std::string polarity_words(const std::vector<int>& polarities);
 
+/// One motion of a scene by name.
+struct MotionName {
+    std::string record;
+    int polarity = 1;  ///< -1: the record's horizontal component is flipped
+    bool both = false; ///< the other polarity is run, too
+
+    std::string label() const;  ///< the record, with its polarity where both are run: "El Centro NS, polarity -1"
+    std::string suffix() const; ///< of file names: "_+1", "_-1"; empty where one polarity is run
+};
+
+/// The motions of a scene in the order in which all commands run them: each record with each of polarities_of().
+std::vector<MotionName> motion_names(const Scene& scene, const std::vector<RecordPair>& records,
+                                     std::optional<int> asked = {});
+
 /// Both components on one grid, scaled as scene and record say; of a sequence all its records on one grid, and
 /// motion.scale_to_pga is the largest peak of them. @param scale  on top of them
 /// @param polarity  the sign on the horizontal component as filed, one of polarities_of()

@@ -36,9 +36,9 @@ struct Ablations {
 
 /// Every effect that is on: what takes its place, or why it stays.
 Table removal_table(const Ablations& in);
-/// Slip and crest motion of every scene under one record, and their changes; with the sum of the changes.
-Table change_table(const Ablations& in, std::size_t record);
-/// The same of all records, with a column that names them.
+/// Slip and crest motion of every scene under one motion, and their changes; with the sum of the changes.
+Table change_table(const Ablations& in, std::size_t motion);
+/// The same of all motions, with columns that name them.
 Table change_table_of_all(const Ablations& in);
 /// Yield acceleration and critical friction of every scene, rigid block.
 Table yield_change_table(const Ablations& in);
@@ -51,7 +51,7 @@ std::vector<std::string> ablation_notes(const Ablations& in);
 /// Runs without an answer, by their status; one more where the step that all runs share misses time.slip_tolerance.
 StatusCount unanswered_runs(const AblationRuns& runs);
 
-/// The page of an ablation: bars of the slip changes by record, of the seconds saved, and the tables. Seconds differ
+/// The page of an ablation: bars of the slip changes by motion, of the seconds saved, and the tables. Seconds differ
 /// from call to call, all else is the same.
 /// @param given  the scene as read
 Page ablation_page(const Ablations& in, const Scene& given, const EffectPlan& effects);

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 namespace damslip::pages {
 
@@ -19,7 +20,7 @@ namespace {
 
 using units::mm;
 
-/// The removal that changes the slip most under one record; null: none has a change.
+/// The removal that changes the slip most under one motion; null: none has a change.
 const AblationRow* strongest(const AblationPlan& plan, const std::vector<AblationRow>& rows)
 {
     const AblationRow* best = nullptr;
@@ -37,9 +38,9 @@ std::string percent(const std::optional<double>& value)
     return std::abs(*value) < 10.0 ? fmt::format(" ({:+.2g} %)", *value) : fmt::format(" ({:+.0f} %)", *value);
 }
 
-Drawing slip_bars(const Ablations& in, std::size_t record)
+Drawing slip_bars(const Ablations& in, std::size_t motion)
 {
-    const std::vector<AblationRow> rows = rows_of(in.plan, in.runs, record);
+    const std::vector<AblationRow> rows = rows_of(in.plan, in.runs, motion);
     std::vector<Bar> bars;
     for (std::size_t i = 1; i < rows.size(); ++i) {
         const AblationRow& r = rows[i];
@@ -62,7 +63,7 @@ Drawing slip_bars(const Ablations& in, std::size_t record)
     note += "To the right: without the effect it slides further.";
     if (in.runs.step)
         note += " Whiskers: what the time step leaves open in the change; hollow: the change is within it.";
-    return tornado("Change of the slip without each effect, record " + in.records[record].files.name, std::move(bars),
+    return tornado("Change of the slip without each effect, record " + in.runs.motions[motion].label(), std::move(bars),
                    "change of the slip [mm]", note);
 }
 
@@ -109,11 +110,11 @@ Drawing yield_bars(const Ablations& in)
                    fmt::format("With all effects a_y = {:.4g} m/s². To the right: it slides later.", full));
 }
 
-std::string record_sentence(const Ablations& in, std::size_t record)
+std::string motion_sentence(const Ablations& in, std::size_t motion)
 {
-    const std::vector<AblationRow> rows = rows_of(in.plan, in.runs, record);
+    const std::vector<AblationRow> rows = rows_of(in.plan, in.runs, motion);
     const AblationRow* most = strongest(in.plan, rows);
-    const std::string name = in.records[record].files.name;
+    const std::string name = in.runs.motions[motion].label();
     if (!rows.front().slip.value)
         return fmt::format("Record {}: the full scene ends as {}.", name, word(rows.front().status));
     if (!most) return fmt::format("Record {}: the dam slides {:.4g} mm.", name, *rows.front().slip.value / mm);
@@ -121,10 +122,22 @@ std::string record_sentence(const Ablations& in, std::size_t record)
                        *rows.front().slip.value / mm, most->name, *most->slip.change / mm);
 }
 
+/// Motions by the slip of the full scene: the first is the line of --quiet and the table of the answer in brief.
+std::vector<std::size_t> worst_first(const Ablations& in)
+{
+    std::vector<std::size_t> order(in.runs.motions.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        const std::vector<MotionOutcome>& full = in.runs.scenes.front().motions;
+        return std::abs(full[a].slip.value_or(0.0)) > std::abs(full[b].slip.value_or(0.0));
+    });
+    return order;
+}
+
 Headline headline(const Ablations& in)
 {
     std::string sentence;
-    for (std::size_t r = 0; r < in.records.size(); ++r) sentence += (r ? " " : "") + record_sentence(in, r);
+    for (const std::size_t m : worst_first(in)) sentence += (sentence.empty() ? "" : " ") + motion_sentence(in, m);
     if (in.records.empty())
         sentence = fmt::format("The dam starts to slide at a ground acceleration of {:.4g} m/s²; no record is given.",
                                in.runs.scenes.front().yield_acceleration.value_or(std::nan("")));
@@ -148,13 +161,13 @@ std::vector<std::string> warnings(const Ablations& in)
 {
     std::vector<std::string> list = record_warnings(in.records);
     const std::vector<std::string> names = scene_names(in.plan);
-    for (std::size_t r = 0; r < in.records.size(); ++r)
+    for (std::size_t r = 0; r < in.runs.motions.size(); ++r)
         for (std::size_t i = 0; i < names.size(); ++i) {
-            const RecordOutcome& o = in.runs.scenes[i].records[r];
+            const MotionOutcome& o = in.runs.scenes[i].motions[r];
             if (o.slip && !o.still_sliding) continue;
             const std::string why = o.still_sliding ? "still sliding after the run-out" : o.message;
             list.push_back(fmt::format(
-                "{}, {}: {}{}{}", in.records[r].files.name, i == 0 ? "with all effects" : "without " + names[i],
+                "{}, {}: {}{}{}", in.runs.motions[r].label(), i == 0 ? "with all effects" : "without " + names[i],
                 o.still_sliding ? "" : word(o.status), why.empty() || o.still_sliding ? "" : ": ", why));
         }
     return list;
@@ -168,9 +181,9 @@ Page ablation_page(const Ablations& in, const Scene& given, const EffectPlan& ef
     page.headline = headline(in);
     page.key_figures = key_figures(in);
     page.warnings = warnings(in);
-    for (std::size_t r = 0; r < in.records.size(); ++r)
+    for (std::size_t r = 0; r < in.runs.motions.size(); ++r)
         page.sections.push_back(
-            {"Slip, record " + in.records[r].files.name,
+            {"Slip, record " + in.runs.motions[r].label(),
              {slip_bars(in, r),
               rows_part(
                   change_table(in, r),
@@ -218,14 +231,18 @@ Answer ablation_answer(const Ablations& in, const EffectPlan& effects)
     if (in.plan.method == Method::rigid_block) {
         const Table yields = yield_change_table(in);
         const std::vector<std::string> columns{"effect", "yield_acceleration_m_s2", "change_percent"};
-        all.add(yields, {in.records.empty() ? columns : std::vector<std::string>(), "change_percent"}, text(yields) + "\n");
+        all.add(yields, {in.records.empty() ? columns : std::vector<std::string>(), "change_percent"},
+                text(yields) + "\n");
     }
-    for (std::size_t r = 0; r < in.records.size(); ++r) {
-        const Table changes = change_table(in, r);
-        all.add(changes, {{"effect", "status", "slip_mm", "slip_error_mm", "change_mm", "change_error_mm",
-                           "change_percent", "remark"},
-                          "change_mm"},
-                text(changes) + "\n");
+    const std::vector<std::size_t> order = worst_first(in);
+    for (std::size_t m = 0; m < order.size(); ++m) {
+        const Table changes = change_table(in, m);
+        if (m == order.front())
+            all.add(changes, {{"effect", "status", "slip_mm", "slip_error_mm", "change_mm", "change_error_mm",
+                               "change_percent", "remark"},
+                              "change_mm"});
+        else
+            all.add(changes);
     }
     all += text(seconds_table(in));
     all.headline_in_brief(headline(in));
@@ -259,12 +276,12 @@ std::optional<std::string> interaction_note(const Ablations& in)
     if (!in.plan.simplest || in.records.empty()) return std::nullopt;
     std::string text = "effects act on each other, so the changes do not add up: ";
     bool any = false;
-    for (std::size_t r = 0; r < in.records.size(); ++r) {
+    for (std::size_t r = 0; r < in.runs.motions.size(); ++r) {
         const std::vector<AblationRow> rows = rows_of(in.plan, in.runs, r);
         const std::optional<double> sum = sum_of_changes(in.plan, rows), all = rows.back().slip.change;
         if (!sum || !all) continue;
         text += fmt::format("{}{}: sum {:+.4g} mm, all removed at once {:+.4g} mm", any ? "; " : "",
-                            in.records[r].files.name, *sum / units::mm, *all / units::mm);
+                            in.runs.motions[r].label(), *sum / units::mm, *all / units::mm);
         any = true;
     }
     return any ? text + "." : "effects act on each other, so the changes do not add up.";
@@ -278,7 +295,7 @@ std::vector<std::string> ablation_notes(const Ablations& in)
     if (const auto note = base_note(in.plan.full); note && in.plan.method == Method::finite_elements)
         notes.push_back(*note + ".");
     for (std::string& note : note_texts(in.plan.full.notes)) notes.push_back(std::move(note));
-    notes.push_back("every run with " + polarity_words({polarities_of(in.plan.full).front()}));
+    notes.push_back("every run with " + polarity_words(polarities_of(in.plan.full)));
     if (!in.water.empty()) notes.push_back(in.water + " in all runs");
     if (in.runs.step) notes.push_back(step_note(*in.runs.step));
     if (in.plan.method == Method::rigid_block)
@@ -291,10 +308,10 @@ std::vector<std::string> ablation_notes(const Ablations& in)
         notes.push_back("crest: largest horizontal distance of its upstream end from where it stood over the base "
                         "before the earthquake, so deformation and rocking without the slip; contact runs keep no "
                         "crest acceleration.");
-    for (std::size_t r = 0; r < in.records.size(); ++r)
-        if (const RecordOutcome& full = in.runs.scenes.front().records[r]; !full.slip)
+    for (std::size_t r = 0; r < in.runs.motions.size(); ++r)
+        if (const MotionOutcome& full = in.runs.scenes.front().motions[r]; !full.slip)
             notes.push_back(fmt::format("{}: with all effects {}, so there is no slip that a removal could change. {}",
-                                        in.records[r].files.name, word(full.status), full.message));
+                                        in.runs.motions[r].label(), word(full.status), full.message));
     if (const StatusCount unanswered = unanswered_runs(in.runs); !unanswered.empty())
         notes.push_back("runs without an answer: " + unanswered.words() + ".");
     if (in.records.empty())

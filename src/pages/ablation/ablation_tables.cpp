@@ -24,9 +24,10 @@ std::string name_of(const AblationPlan& plan, const std::optional<Effect>& effec
     return "";
 }
 
-/// A scene under one record, or the sum of the changes.
+/// A scene under one motion, or the sum of the changes.
 struct ChangeRow {
-    std::string record, name, status;
+    MotionName motion;
+    std::string name, status;
     Change slip, crest;
     std::optional<double> slip_error, change_error; ///< [m]
     std::vector<Change> lifts;
@@ -35,9 +36,9 @@ struct ChangeRow {
     Change lift(std::size_t k) const { return k < lifts.size() ? lifts[k] : Change{}; }
 };
 
-ChangeRow sum_row(const AblationPlan& plan, const std::vector<AblationRow>& rows, const std::string& record)
+ChangeRow sum_row(const AblationPlan& plan, const std::vector<AblationRow>& rows, const MotionName& motion)
 {
-    ChangeRow row{record, "(sum of changes)", "sum", {}, {}, {}, {}, {}, "some run has no final slip"};
+    ChangeRow row{motion, "(sum of changes)", "sum", {}, {}, {}, {}, {}, "some run has no final slip"};
     const double full = rows.front().slip.value.value_or(0.0);
     if (const std::optional<double> sum = sum_of_changes(plan, rows)) {
         row.slip.change = sum;
@@ -50,12 +51,12 @@ ChangeRow sum_row(const AblationPlan& plan, const std::vector<AblationRow>& rows
 /// The sum stands before the row of the simplest scene, which it compares with.
 void add_changes(const Ablations& in, std::size_t number, std::vector<ChangeRow>& list)
 {
-    const std::string& record = in.records[number].files.name;
+    const MotionName& motion = in.runs.motions[number];
     const std::vector<AblationRow> rows = rows_of(in.plan, in.runs, number);
     for (const AblationRow& r : rows) {
-        if (in.plan.simplest && &r == &rows.back()) list.push_back(sum_row(in.plan, rows, record));
+        if (in.plan.simplest && &r == &rows.back()) list.push_back(sum_row(in.plan, rows, motion));
         list.push_back(
-            {record, r.name, word(r.status), r.slip, r.crest, r.slip_error, r.change_error, r.lifts, r.remark});
+            {motion, r.name, word(r.status), r.slip, r.crest, r.slip_error, r.change_error, r.lifts, r.remark});
     }
 }
 
@@ -110,19 +111,20 @@ Table removal_table(const Ablations& in)
                          rows);
 }
 
-Table change_table(const Ablations& in, std::size_t record)
+Table change_table(const Ablations& in, std::size_t motion)
 {
     std::vector<ChangeRow> rows;
-    add_changes(in, record, rows);
-    return table_of("Record " + in.records[record].files.name, change_columns(in), rows);
+    add_changes(in, motion, rows);
+    return table_of("Record " + in.runs.motions[motion].label(), change_columns(in), rows);
 }
 
 Table change_table_of_all(const Ablations& in)
 {
     std::vector<ChangeRow> rows;
-    for (std::size_t r = 0; r < in.records.size(); ++r) add_changes(in, r, rows);
+    for (std::size_t r = 0; r < in.runs.motions.size(); ++r) add_changes(in, r, rows);
     std::vector<ColumnOf<ChangeRow>> columns = change_columns(in);
-    columns.insert(columns.begin(), {{"record", "record"}, &ChangeRow::record});
+    columns.insert(columns.begin(), {{{"record", "record"}, [](const ChangeRow& r) { return r.motion.record; }},
+                                     {{"polarity", "polarity"}, [](const ChangeRow& r) { return r.motion.polarity; }}});
     return table_of("Changes by effect", columns, rows);
 }
 
@@ -196,7 +198,7 @@ StatusCount unanswered_runs(const AblationRuns& runs)
 {
     StatusCount count;
     for (const SceneRuns& scene : runs.scenes)
-        for (const RecordOutcome& r : scene.records)
+        for (const MotionOutcome& r : scene.motions)
             if (!is_answer(r.status)) count.add(r.status);
     if (runs.step && runs.step->missed) count.add(Status::tolerance_missed);
     return count;

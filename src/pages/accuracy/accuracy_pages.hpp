@@ -18,6 +18,8 @@ struct AccuracyReportInput {
     double tolerance;
     std::string command;               ///< that runs the chosen rung; empty: none is chosen
     std::vector<std::string> messages; ///< what is left out and why
+
+    std::vector<MotionName> motions() const { return motion_names(scene, records); }
 };
 
 nlohmann::ordered_json accuracy_json(const AccuracyReportInput& input);
@@ -27,8 +29,8 @@ Answer accuracy_answer(const AccuracyReportInput& input);
 std::string accuracy_csv(const Scene& scene, const std::vector<RungResult>& results, const Judgement& judgement);
 
 /// One rung alone.
-nlohmann::ordered_json one_rung_json(const RungResult& result, const std::vector<RecordPair>& records);
-Answer one_rung_answer(const RungResult& result, const std::vector<RecordPair>& records);
+nlohmann::ordered_json one_rung_json(const RungResult& result, const std::vector<MotionName>& motions);
+Answer one_rung_answer(const RungResult& result, const std::vector<MotionName>& motions);
 
 /// The ladder as a page: the answer, error against seconds, convergence of each model, the tables.
 Page accuracy_page(const AccuracyReportInput& input);
@@ -42,11 +44,11 @@ Table rung_table(const std::vector<RungResult>& results, const Judgement& judgem
 /// One row per model with two rungs at least: its limit and the orders in which its rungs tend to it.
 Table model_table(const std::vector<RungResult>& results, const Judgement& judgement);
 
-/// Slip of every rung for every record [m], for files.
-Table slip_table(const std::vector<RungResult>& results, const std::vector<RecordPair>& records);
+/// Slip of every rung for every motion [m], for files.
+Table slip_table(const std::vector<RungResult>& results, const std::vector<MotionName>& motions);
 
-/// Slips of one rung, by record.
-Table one_rung_table(const RungResult& result, const std::vector<RecordPair>& records);
+/// Slips of one rung, by motion.
+Table one_rung_table(const RungResult& result, const std::vector<MotionName>& motions);
 
 /// Did some rung run, and every one that did find that the dam does not stand without an earthquake? That is an answer.
 bool all_fail_statically(const std::vector<RungResult>& results);

@@ -1,8 +1,8 @@
 #include "pages/accuracy/accuracy_pages.hpp"
 
 #include "analysis/accuracy/ladder.hpp"
-#include "core/version.hpp"
 #include "core/units.hpp"
+#include "core/version.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
 #include "scene/write.hpp"
@@ -98,7 +98,8 @@ std::vector<std::pair<std::string, std::string>> key_figures(const AccuracyRepor
     const Judgement& j = in.judgement;
     if (!j.top) return list;
     const RungResult& top = in.results[*j.top];
-    list.emplace_back("Slip of the finest model level", fmt::format("{:.4g} mm", top.slip[j.record] / units::mm));
+    list.emplace_back("Slip of the finest model level",
+                      fmt::format("{:.4g} mm ({})", top.slip[j.motion] / units::mm, in.motions()[j.motion].label()));
     list.emplace_back("Finest model level", rung_id(top.rung));
     if (j.top_error) list.emplace_back("It leaves open", fmt::format("{:.2g} %", 100.0 * *j.top_error));
     list.emplace_back("It takes", fmt::format("{:.3g} s", top.seconds));
@@ -155,8 +156,9 @@ Section convergence_section(const AccuracyReportInput& in)
 std::string figure_title(const Scene& scene, const std::vector<RecordPair>& records)
 {
     std::string title = scene.title.empty() ? scene.file.filename().string() : scene.title;
-    return title + (records.size() == 1 ? ", " + records.front().files.name
-                                        : fmt::format(", worst of {} records", records.size()));
+    title +=
+        records.size() == 1 ? ", " + records.front().files.name : fmt::format(", worst of {} records", records.size());
+    return title + ", " + polarity_words(polarities_of(scene));
 }
 
 Page accuracy_page(const AccuracyReportInput& in)
@@ -187,15 +189,20 @@ nlohmann::ordered_json accuracy_json(const AccuracyReportInput& in)
     j["records"] = nlohmann::ordered_json::array();
     for (const RecordPair& pair : in.records) j["records"].push_back(pair.files.name);
     j["tolerance"] = in.tolerance;
+    j["governs"] = nullptr;
     j["top"] = nullptr;
     j["top_open"] = nullptr;
     j["choice"] = nullptr;
-    if (judged.top) j["top"] = rung_id(in.results[*judged.top].rung);
+    if (judged.top) {
+        const MotionName motion = in.motions()[judged.motion];
+        j["governs"] = {{"record", motion.record}, {"polarity", motion.polarity}};
+        j["top"] = rung_id(in.results[*judged.top].rung);
+    }
     if (judged.top_error) j["top_open"] = *judged.top_error;
     if (judged.choice) j["choice"] = {{"rung", rung_id(in.results[*judged.choice].rung)}, {"command", in.command}};
     j["rungs"] = json_of(rung_table(in.results, judged));
     j["models"] = json_of(model_table(in.results, judged));
-    j["slips"] = json_of(slip_table(in.results, in.records));
+    j["slips"] = json_of(slip_table(in.results, in.motions()));
     j["messages"] = in.messages;
     return j;
 }
@@ -229,28 +236,25 @@ std::string accuracy_csv(const Scene& scene, const std::vector<RungResult>& resu
                {"damslip " + program_version() + " accuracy", "scene " + scene_hash(scene)});
 }
 
-nlohmann::ordered_json one_rung_json(const RungResult& result, const std::vector<RecordPair>& records)
+nlohmann::ordered_json one_rung_json(const RungResult& result, const std::vector<MotionName>& motions)
 {
     auto j = json_header("accuracy");
     j["rung"] = rung_id(result.rung);
-    j["runs"] = json_of(one_rung_table(result, records));
+    j["runs"] = json_of(one_rung_table(result, motions));
     j["status"] = word(result.status);
     j["remark"] = result.remark;
     return j;
 }
 
-Answer one_rung_answer(const RungResult& result, const std::vector<RecordPair>& records)
+Answer one_rung_answer(const RungResult& result, const std::vector<MotionName>& motions)
 {
     Answer answer;
-    const Table table = one_rung_table(result, records);
+    const Table table = one_rung_table(result, motions);
     answer.add(table, {{"record", "polarity", "slip_mm", "seconds"}, "slip_mm"}, text(table));
     answer += "status: " + word(result.status) + "\n";
-    const auto worst = std::max_element(result.slip.begin(), result.slip.end(),
-                                        [](double a, double b) { return std::abs(a) < std::abs(b); });
-    answer.headline_in_brief({worst == result.slip.end()
-                                  ? "Model level " + rung_id(result.rung) + " has no slip."
-                                  : fmt::format("Model level {}: slip {:.4g} mm at most.", rung_id(result.rung),
-                                                *worst / units::mm),
+    answer.headline_in_brief({result.done() ? fmt::format("Model level {}: slip {:.4g} mm at most.",
+                                                          rung_id(result.rung), result.largest_slip() / units::mm)
+                                            : "Model level " + rung_id(result.rung) + " has no slip.",
                               Outcome::none, word(result.status)});
     if (!result.remark.empty()) answer.note(result.remark);
     return answer;

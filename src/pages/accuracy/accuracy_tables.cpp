@@ -41,15 +41,15 @@ struct RungRow {
     const RungVerdict& verdict;
     const Judgement& judgement;
 
-    Cell of_record(const std::vector<double>& values) const
+    Cell of_motion(const std::vector<double>& values) const
     {
-        return judgement.record < values.size() ? Cell(values[judgement.record] / mm) : Cell();
+        return judgement.motion < values.size() ? Cell(values[judgement.motion] / mm) : Cell();
     }
     /// Of its slip from the top's, over the top's [%].
     Cell off_top_percent() const
     {
         if (!result.done() || !judgement.top || !verdict.off_top) return {};
-        const double top = std::abs(result.slip[judgement.record] - *verdict.off_top);
+        const double top = std::abs(result.slip[judgement.motion] - *verdict.off_top);
         return top >= least_slip ? Cell(100.0 * *verdict.off_top / top) : Cell();
     }
 };
@@ -63,9 +63,9 @@ std::vector<ColumnOf<RungRow>> rung_columns()
     const auto megabytes = [](const R& r) { return r.result.done() ? optional_cell(r.result.bytes, 1e6) : Cell(); };
     const auto deviation = [](const R& r) { return r.verdict.deviation ? Cell(100.0 * *r.verdict.deviation) : Cell(); };
     return {{{"rung", "model level"}, [](const R& r) { return rung_id(r.result.rung); }},
-            {{"slip_mm", "slip", "mm", 5}, [](const R& r) { return r.of_record(r.result.slip); }},
-            {{"slip_16_mm", "16 %", "mm", 3}, [](const R& r) { return r.of_record(r.result.low); }},
-            {{"slip_84_mm", "84 %", "mm", 3}, [](const R& r) { return r.of_record(r.result.high); }},
+            {{"slip_mm", "slip", "mm", 5}, [](const R& r) { return r.of_motion(r.result.slip); }},
+            {{"slip_16_mm", "16 %", "mm", 3}, [](const R& r) { return r.of_motion(r.result.low); }},
+            {{"slip_84_mm", "84 %", "mm", 3}, [](const R& r) { return r.of_motion(r.result.high); }},
             {{"error_mm", "± steps, mesh", "mm", 2}, [](const R& r) { return optional_cell(r.verdict.error, mm); }},
             {{"model_difference_mm", "model − top's", "mm", 3},
              [](const R& r) { return optional_cell(r.verdict.model_difference, mm); }},
@@ -95,7 +95,7 @@ Table rung_table(const std::vector<RungResult>& results, const Judgement& j)
         "± steps, mesh: estimate of what steps, elements, penalty and modes leave open, from the model levels of the "
         "same "
         "model; model − top's: difference of the limits of both models.",
-        "deviation: (|slip − top's| + what the top model level leaves open) over the top's slip, the worst record; "
+        "deviation: (|slip − top's| + what the top model level leaves open) over the top's slip, the worst motion; "
         "front: no "
         "model level as fast deviates less.",
         "time: processor time of all that this model level costs alone, reading and set-up included, median of the "
@@ -106,7 +106,7 @@ Table rung_table(const std::vector<RungResult>& results, const Judgement& j)
         "elements of twice and half the scene's size; q8: quadratic elements of the size before it; stick: penalty in "
         "N/m³."};
     if (j.top && results[*j.top].slip.size() > 1)
-        t.notes.push_back("slips and millimetres: of the record that slides the top model level furthest.");
+        t.notes.push_back("slips and millimetres: of the record and polarity that slide the top model level furthest.");
     return t;
 }
 
@@ -115,20 +115,20 @@ Table model_table(const std::vector<RungResult>& results, const Judgement& j)
     using M = ModelLimit;
     double reference = 0.0; // of the limits: the top's own, or its slip
     if (j.top) {
-        reference = results[*j.top].slip[j.record];
+        reference = results[*j.top].slip[j.motion];
         const std::string top = model_of(results[*j.top].rung);
         for (const M& m : j.models)
-            if (m.model == top) reference = m.slip[j.record];
+            if (m.model == top) reference = m.slip[j.motion];
     }
     const auto off_top = [&](const M& m) {
-        return std::abs(reference) >= least_slip ? Cell(100.0 * (m.slip[j.record] - reference) / std::abs(reference))
+        return std::abs(reference) >= least_slip ? Cell(100.0 * (m.slip[j.motion] - reference) / std::abs(reference))
                                                  : Cell();
     };
     Table t = table_of<M>(
         "Models and their limits",
         {{{"model", "model"}, &M::model},
-         {{"limit_mm", "limit", "mm", 5}, [&](const M& m) { return m.slip[j.record] / mm; }},
-         {{"open_mm", "± open", "mm", 2}, [&](const M& m) { return m.open[j.record] / mm; }},
+         {{"limit_mm", "limit", "mm", 5}, [&](const M& m) { return m.slip[j.motion] / mm; }},
+         {{"open_mm", "± open", "mm", 2}, [&](const M& m) { return m.open[j.motion] / mm; }},
          {{"off_top_percent", "model − top's", "%", 3}, off_top},
          {{"order_step", "order in step", "", 3}, [](const M& m) { return optional_cell(m.order_step); }},
          {{"order_mesh", "in mesh", "", 3}, [](const M& m) { return optional_cell(m.order_mesh); }},
@@ -145,30 +145,33 @@ Table model_table(const std::vector<RungResult>& results, const Judgement& j)
     return t;
 }
 
-Table slip_table(const std::vector<RungResult>& results, const std::vector<RecordPair>& records)
+Table slip_table(const std::vector<RungResult>& results, const std::vector<MotionName>& motions)
 {
     struct Row {
-        std::string rung, record;
+        std::string rung;
+        MotionName motion;
         double slip; ///< [m]
     };
     std::vector<Row> rows;
     for (const RungResult& r : results)
-        for (std::size_t i = 0; i < r.slip.size() && i < records.size(); ++i)
-            rows.push_back({rung_id(r.rung), records[i].files.name, r.slip[i]});
+        for (std::size_t i = 0; i < r.slip.size() && i < motions.size(); ++i)
+            rows.push_back({rung_id(r.rung), motions[i], r.slip[i]});
     return table_of<Row>("",
                          {{{"rung", "model level"}, &Row::rung},
-                          {{"record", "record"}, &Row::record},
+                          {{"record", "record"}, [](const Row& r) { return r.motion.record; }},
+                          {{"polarity", "polarity"}, [](const Row& r) { return r.motion.polarity; }},
                           {{"slip_m", "slip", "m", 6}, &Row::slip}},
                          rows);
 }
 
-Table one_rung_table(const RungResult& result, const std::vector<RecordPair>& records)
+Table one_rung_table(const RungResult& result, const std::vector<MotionName>& motions)
 {
     using Number = std::size_t;
     return table_of<Number>("Model level " + rung_id(result.rung),
-                            {{{"record", "record"}, [&](Number i) { return records[i].files.name; }},
+                            {{{"record", "record"}, [&](Number i) { return motions[i].record; }},
+                             {{"polarity", "polarity"}, [&](Number i) { return motions[i].polarity; }},
                              {{"slip_mm", "slip", "mm", 6}, [&](Number i) { return result.slip[i] / mm; }},
-                             {{"seconds", "time, all records", "s", 3}, [&](Number) { return result.seconds; }}},
+                             {{"seconds", "time, all motions", "s", 3}, [&](Number) { return result.seconds; }}},
                             std::views::iota(Number{0}, result.slip.size()));
 }
 
@@ -216,7 +219,7 @@ std::string choice_sentence(const std::vector<RungResult>& results, const Judgem
     return fmt::format(
         "Cheapest model level within {:.3g} %: {}, slip {:.4g} mm in {:.2g} s, {:.2g} % from the finest ({}, {:.2g} "
         "s).",
-        100.0 * tolerance, rung_id(r.rung), r.slip[j.record] / mm, r.seconds, 100.0 * *j.rungs[*j.choice].deviation,
+        100.0 * tolerance, rung_id(r.rung), r.slip[j.motion] / mm, r.seconds, 100.0 * *j.rungs[*j.choice].deviation,
         rung_id(top.rung), top.seconds);
 }
 

@@ -288,7 +288,8 @@ Answer assess_answer(const Assessment& a, const Scene& given)
     Answer all;
     all += given.title + "\n\n";
     const std::string gap = a.spectrum || !a.assumptions.empty() ? "\n" : "";
-    all.add(level_table(a), {{"record", "level", "how", "polarity", "slip_mm", "low_mm", "high_mm", "status"}, "slip_mm"},
+    all.add(level_table(a),
+            {{"record", "level", "how", "polarity", "slip_mm", "low_mm", "high_mm", "status"}, "slip_mm"},
             text(level_table(a)) + gap);
     if (a.spectrum) all += text(spectrum_table(*a.spectrum)) + (a.assumptions.empty() ? "" : "\n");
     if (!a.assumptions.empty())
@@ -356,16 +357,16 @@ std::vector<std::string> effects_off(const Assessment& a, bool unnamed)
     return list;
 }
 
-/// The effect whose absence changes the rigid block's slip most, of the records' worst.
+/// The effect whose absence changes the rigid block's slip most, of the worst motion.
 std::string rigid_mover(const Assessment& a)
 {
     if (!a.rigid_plan || !a.rigid_ablation || a.rigid_ablation->scenes.empty()) return "";
-    const std::vector<RecordOutcome>& full = a.rigid_ablation->scenes.front().records;
-    std::size_t record = full.size();
+    const std::vector<MotionOutcome>& full = a.rigid_ablation->scenes.front().motions;
+    std::size_t worst = full.size();
     for (std::size_t i = 0; i < full.size(); ++i)
-        if (full[i].slip && (record == full.size() || *full[i].slip > *full[record].slip)) record = i;
-    if (record == full.size()) return "";
-    const std::vector<AblationRow> rows = rows_of(*a.rigid_plan, *a.rigid_ablation, record);
+        if (full[i].slip && (worst == full.size() || *full[i].slip > *full[worst].slip)) worst = i;
+    if (worst == full.size()) return "";
+    const std::vector<AblationRow> rows = rows_of(*a.rigid_plan, *a.rigid_ablation, worst);
     const AblationRow* most = nullptr;
     for (std::size_t i = 1; i <= a.rigid_plan->removals.size(); ++i)
         if (rows[i].slip.change && (!most || std::abs(*rows[i].slip.change) > std::abs(*most->slip.change)))
@@ -373,7 +374,7 @@ std::string rigid_mover(const Assessment& a)
     if (!most || !rows.front().slip.value || *most->slip.change == 0.0) return "";
     return fmt::format("Rigid block: most depends on {}; without it {} in place of {} (record {}).", most->name,
                        millimetres(most->slip.value.value_or(0.0)), millimetres(*rows.front().slip.value),
-                       a.ready.records()[record].files.name);
+                       a.rigid_ablation->motions[worst].label());
 }
 
 } // namespace
