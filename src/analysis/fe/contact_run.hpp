@@ -25,6 +25,7 @@ struct ContactRun {
     bool both = false;                         ///< the other polarity was run, too
     MeshError mesh;
     bool leaves_out = false; ///< something that the scene asks for (not_honoured()): no PASS rests on the slip
+    std::optional<double> tensile_strength = {}; ///< dam.tensile_strength, against which `fe.cracks` is held [Pa]
 
     std::string label() const;  ///< the record, with its polarity where both were run: "El Centro NS, polarity -1"
     std::string suffix() const; ///< of file names: "_+1", "_-1"; empty where one polarity was run
@@ -41,6 +42,14 @@ struct SlipError {
 };
 SlipError slip_error(const ContactRun& run);
 SlipError lift_error(const ContactRun& run, std::size_t lift);
+
+/// Splitting strengths of mass concrete of 10 to 30 MPa, 0.32 f_c^(2/3) with both in MPa (Raphael 1984, ACI Journal 81, 158)
+/// [Pa]: without dam.tensile_strength the concrete is said to crack above the largest.
+inline constexpr double usual_tensile_strength[] = {1.5e6, 3e6};
+/// Would the concrete crack where the model has no joint, or a tied lift slip or part?
+bool would_crack(const ContactRun& run);
+/// The run with the largest tension away from joints. @returns null: no run was watched
+const ContactRun* most_tensioned(const std::vector<ContactRun>& runs);
 
 /// Does its status have a slip?
 bool has_slip(const ContactRun& run);
