@@ -91,7 +91,8 @@ DamLayout dam_layout(const Scene& scene, const Faces& faces, const MeshSizes& si
     layout.rows = layout.sizes.positions(levels);
     for (double& s : layout.rows) s /= height;
     layout.rows.back() = 1.0;
-    for (const Faces::Layer& joint : faces.layers) layout.joints.push_back(index_of(layout.rows, joint.s));
+    for (const Faces::Layer& layer : faces.layers)
+        (layer.tied ? layout.tied : layout.joints).push_back(index_of(layout.rows, layer.s));
     return layout;
 }
 
@@ -436,7 +437,11 @@ void append_dam(Mesh& mesh, const Faces& faces, const DamLayout& layout)
         else
             row = build.plain(row, s);
         add_to_faces(row);
-        if (!std::binary_search(layout.joints.begin(), layout.joints.end(), static_cast<int>(j))) continue;
+        const auto is_one_of = [j](const std::vector<int>& rows) {
+            return std::binary_search(rows.begin(), rows.end(), static_cast<int>(j));
+        };
+        if (is_one_of(layout.tied)) mesh.tied_lifts.push_back(lift_plane(mesh, row, row));
+        if (!is_one_of(layout.joints)) continue;
         const Row upper = build.again(row);
         mesh.lifts.push_back(lift_plane(mesh, row, upper));
         row = upper;

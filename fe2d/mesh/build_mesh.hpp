@@ -75,13 +75,14 @@ struct DamLayout {
     std::vector<double> base; ///< node distances from the heel along the base [m], 0 ... base length
     std::vector<double> rows; ///< face parameter s of every row of nodes, 0 ... 1
     std::vector<int> joints;  ///< indices in `rows` of the lift joints, increasing
+    std::vector<int> tied;    ///< the same of tied lifts
     DamSizes sizes;           ///< element size against the mean height above the base [m]
 };
 
 /// Appends the dam to an empty mesh: quadrilaterals in rows that follow both faces. Where the columns have become much
 /// narrower than the element size of their height, four columns become two by a row of six quadrilaterals, so that
 /// elements stay near square up to a narrow crest; below a bonded lift two columns become four in the same way; a section that ends in a point ends in triangles. Rows at
-/// lift joints are made twice. Fills dam nodes, elements, faces, crest, contact.dam_nodes and lifts.
+/// lift joints are made twice. Fills dam nodes, elements, faces, crest, contact.dam_nodes, lifts and tied_lifts.
 void append_dam(Mesh& mesh, const Faces& faces, const DamLayout& layout);
 
 /// Where the columns and rows of the rock lie.

@@ -108,13 +108,16 @@ Layers joint_layers(const Scene& scene, const Polyline& upstream, const Polyline
     const double low = std::max(upstream.front().y, downstream.front().y);
     const double high = std::min(upstream.back().y, downstream.back().y);
     Layers layers;
-    for (const LiftJoint& joint : scene.lift_joints) {
-        const double y = joint.elevation;
+    for (const LiftJoint& joint : scene.lift_joints) layers.push_back({0.0, joint.elevation});
+    for (const LiftJoint& joint : scene.tied_lifts) layers.push_back({0.0, joint.elevation, true});
+    std::sort(layers.begin(), layers.end(), [](const auto& a, const auto& b) { return a.level < b.level; });
+    for (Faces::Layer& layer : layers) {
+        const double y = layer.level;
         if (!(y > low && y < high))
             refuse(scene.file,
                    "lift_joint.elevation_m = " + shortest(y) + " is not between base and crest on both faces.",
                    "above " + shortest(low) + " m and below " + shortest(high) + " m", "move the joint");
-        layers.push_back({0.5 * (parameter(upstream, {}, y) + parameter(downstream, {}, y)), y});
+        layer.s = 0.5 * (parameter(upstream, {}, y) + parameter(downstream, {}, y));
     }
     return layers;
 }

@@ -17,11 +17,12 @@ struct Faces {
     struct Layer {
         double s = 0.0;     ///< its height parameter
         double level = 0.0; ///< above the heel [m]
+        bool tied = false;  ///< of Scene::tied_lifts
     };
 
     Polyline upstream;         ///< heel to the upstream end of the crest, y strictly increasing
     Polyline downstream;       ///< toe to the downstream end of the crest, y strictly increasing
-    std::vector<Layer> layers; ///< the lift joints, from the bottom up
+    std::vector<Layer> layers; ///< the lift joints and tied lifts, from the bottom up
 
     Point upstream_at(double s) const;
     Point downstream_at(double s) const;

@@ -73,6 +73,7 @@ std::set<Corners> contact_edges(const Mesh& mesh)
         add(lift.lower_nodes);
         add(lift.upper_nodes);
     }
+    for (const LiftPlane& lift : mesh.tied_lifts) add(lift.lower_nodes);
     return edges;
 }
 

@@ -80,6 +80,7 @@ struct Mesh {
 
     ContactPlane contact;
     std::vector<LiftPlane> lifts;     ///< from the bottom up, in the order of Scene::lift_joints
+    std::vector<LiftPlane> tied_lifts; ///< the same of Scene::tied_lifts: both sides have the same nodes
     std::vector<EdgeNode> edge_nodes; ///< of all quadratic edges, by a, then b. Chains and planes below are of corners
     NodeChain upstream_face;       ///< of the dam, crest to heel; at a lift joint through both nodes, upper first: an
                                    ///< edge of no length

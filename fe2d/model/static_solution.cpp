@@ -160,6 +160,11 @@ Eigen::VectorXd sum_of(const std::vector<StaticLoad>& loads, int unknowns)
 
 PressureProfile lift_water_profile(const Scene& scene, const LiftJoint& joint, double length)
 {
+    if (!joint.pressures.empty()) {
+        PressureProfile profile;
+        for (const Point& p : joint.pressures) profile.points.push_back({p.x, p.y});
+        return profile;
+    }
     if (joint.water == JointWater::none) return {};
     const double unit_weight = water_unit_weight(scene);
     const double upstream = scene.reservoir ? std::max(0.0, scene.reservoir->level - joint.elevation) : 0.0;

@@ -200,7 +200,8 @@ std::unique_ptr<EarthquakePass> EarthquakeRun::pass_of(const Lane& lane, int hal
     const double interval = frame_interval(ground.samples_end());
     SlideWatch watch = slide_watch(lane, ground.end());
     return std::make_unique<EarthquakePass>(std::move(start), std::move(ground), steps, lane.strength, lane.result,
-                                            options_.pair_series, interval, lane.before, std::move(watch));
+                                            options_.pair_series, interval, lane.before, std::move(watch), *cracks_,
+                                            options_.ends_when_lifts_wake);
 }
 
 /// Lanes with steps of the same size, side by side.
@@ -490,6 +491,7 @@ void EarthquakeRun::refine(int halvings, std::span<Lane* const> lanes) const
             lane.result.status = Status::interrupted;
             lane.result.message = fmt::format("Interrupted with sub-steps of {:.4g} s; slip {:.4g} mm with {:.4g} s.",
                                               finer[i].dt, 1e3 * lane.result.slip, lane.result.dt);
+            lane.result.cracks = std::move(finer[i].cracks);
             continue;
         }
         const bool was_self_excited = lane.result.status == Status::self_excited;

@@ -37,12 +37,13 @@ double PassSteps::time(long row_before, int part) const
 
 EarthquakePass::EarthquakePass(DynamicContact start, PlayedGround ground, const PassSteps& steps,
                                const Strength& at_start, const RunResult& so_far, PairSeries series,
-                               double frame_interval, const std::optional<HistoryBefore>& before, SlideWatch watching)
+                               double frame_interval, const std::optional<HistoryBefore>& before, SlideWatch watching,
+                               const CrackLines& cracks, bool ends_when_lifts_wake)
     : steps_(steps), dynamics_(std::move(start)), ground_(std::move(ground)), strength_(at_start), result_(so_far),
       recorder_(before ? HistoryRecorder(dynamics_, result_.history, series, *before)
                        : HistoryRecorder(dynamics_, result_.history, series, frame_interval)),
       probe_(dynamics_.structure().planes(), so_far.rest(), dynamics_.state().contact.slip),
-      watch_(std::move(watching)), record_rows_(steps.rows(ground_.end())),
+      watch_(std::move(watching)), cracks_(cracks), begin_(before ? before->time : 0.0), ends_when_lifts_wake_(ends_when_lifts_wake), record_rows_(steps.rows(ground_.end())),
       all_rows_(record_rows_ + steps.rows(steps.run_out)), rest_rows_(steps.rows(steps.rest_time)),
       shown_rows_(steps.rows(ground_.samples_end()))
 {
@@ -52,7 +53,9 @@ EarthquakePass::EarthquakePass(DynamicContact start, PlayedGround ground, const 
     if (!before) result_.events.clear(); // of a coarser pass
     if (const MotionEvent* event = ground_.event())
         result_.events.push_back({event->name, 0.0, ground_.end(), 0.0, 0.0});
+    if (!before) result_.cracks = cracks.none_yet();
     watch_.add(probe_.instant(dynamics_, strength_.law()));
+    look_for_cracks();
     recorder_.reserve(static_cast<std::size_t>(record_rows_) + 1);
     add_row();
     going_ = all_rows_ > 0;
@@ -62,6 +65,13 @@ void EarthquakePass::after_step()
 {
     strength_.follow(dynamics_.state().contact);
     watch_.add(probe_.instant(dynamics_, strength_.law()));
+    look_for_cracks();
+}
+
+void EarthquakePass::look_for_cracks()
+{
+    const DynamicState& now = dynamics_.state();
+    cracks_.look(begin_ + now.time, now.u, now.v, result_.cracks);
 }
 
 void EarthquakePass::add_row()
@@ -79,7 +89,7 @@ void EarthquakePass::end(Status status)
 void EarthquakePass::after_row(long n, bool stopped)
 {
     add_row();
-    if (stopped)
+    if (stopped || (ends_when_lifts_wake_ && result_.cracks.wakes()))
         end(Status::interrupted);
     else if (!dynamics_.within_reach())
         end(Status::left_plane);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe2d/run/contact_motion.hpp"
+#include "fe2d/run/crack_watch.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "fe2d/run/ground_input.hpp"
 #include "fe2d/run/slide_watch.hpp"
@@ -56,7 +57,8 @@ public:
     /// @param so_far  static stages and, with `before`, the history that goes on
     EarthquakePass(DynamicContact start, PlayedGround ground, const PassSteps& steps, const Strength& at_start,
                    const RunResult& so_far, PairSeries series, double frame_interval,
-                   const std::optional<HistoryBefore>& before, SlideWatch watching);
+                   const std::optional<HistoryBefore>& before, SlideWatch watching, const CrackLines& cracks,
+                   bool ends_when_lifts_wake);
     EarthquakePass(const EarthquakePass&) = delete; // the recorder points into it
     EarthquakePass& operator=(const EarthquakePass&) = delete;
 
@@ -75,6 +77,7 @@ public:
 
 private:
     void add_row();
+    void look_for_cracks();
     void end(Status status);
     void rest(long n);
 
@@ -86,6 +89,9 @@ private:
     HistoryRecorder recorder_;
     SlideProbe probe_;
     SlideWatch watch_;
+    CrackWatch cracks_;
+    double begin_; ///< of its motion [s]
+    bool ends_when_lifts_wake_;
     long record_rows_, all_rows_, rest_rows_; ///< to the end of the record; with the run-out; at rest
     long shown_rows_;
     long at_rest_since_ = -1; ///< row, of a sequence with more to come; -1: it moves

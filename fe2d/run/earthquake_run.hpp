@@ -5,6 +5,7 @@
 #include "core/watch.hpp"
 #include "fe2d/rock/radiating_rock.hpp"
 #include "fe2d/run/base_water.hpp"
+#include "fe2d/run/crack_watch.hpp"
 #include "fe2d/run/dynamic_contact.hpp"
 #include "fe2d/run/explicit_contact.hpp"
 #include "fe2d/run/run_history.hpp"
@@ -52,6 +53,7 @@ struct RunOptions {
     /// Asked after every step of the record; empty: none. Steps count sub-steps of all passes of the chosen halvings,
     /// as far as they are known. Runs that go on in parallel call it from their own threads.
     std::function<RunAnswer(const RunProgress&)> progress;
+    bool ends_when_lifts_wake = false; ///< as interrupted, once a tied lift has reached wake_index
     StopAsked stop;                                  ///< asked between the parts of the set-up
     std::function<void(int unknowns)> reducing_rock; ///< RadiatingRockInput::reducing; empty: nobody is told
 };
@@ -95,6 +97,7 @@ struct RunResult {
     DynamicCounts counts;                       ///< of the run that is reported
     double energy_error = 0.0;                  ///< |imbalance| at the end over the largest term [-]
     std::vector<LiftResult> lifts;              ///< from bottom to top
+    CrackFigures cracks;                        ///< of the parts that cannot crack
     std::vector<AnchorOutcome> anchors;         ///< in the order of the scene
     std::optional<JointWaterReport> base_water; ///< none where the water under the base stays as it was
     Eigen::VectorXd pair_distance, pair_area;   ///< of the base [m]
@@ -235,6 +238,7 @@ private:
     std::shared_ptr<const ExplicitOperators> explicit_; ///< null with implicit steps
     LoadStages stages_;
     RunDamping damping_;
+    std::optional<CrackLines> cracks_; ///< none where the structure is not usable
     bool usable_ = false;
     std::string why_not_; ///< of what is not usable
     double seconds_ = 0.0;

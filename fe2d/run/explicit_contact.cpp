@@ -324,7 +324,12 @@ RunResult EarthquakeRun::shake_explicitly(int halvings, const Lane& lane) const
     HistoryRecorder recorder(dynamics, result.history, options_.pair_series, frame_interval(duration));
     const SlideProbe probe(structure_->planes(), lane.result.stages.back(), dynamics.state().contact.slip);
     SlideWatch watch = slide_watch(lane, duration);
-    const auto look = [&] { watch.add(probe.instant(dynamics, strength.law())); };
+    result.cracks = cracks_->none_yet();
+    CrackWatch cracks(*cracks_);
+    const auto look = [&] {
+        watch.add(probe.instant(dynamics, strength.law()));
+        cracks.look(dynamics.state().time, dynamics.state().u, dynamics.state().v, result.cracks);
+    };
     const auto add_row = [&] {
         recorder.add();
         watch.add_row(result.history.slide);
@@ -345,6 +350,8 @@ RunResult EarthquakeRun::shake_explicitly(int halvings, const Lane& lane) const
         add_row();
         if (options_.progress &&
             options_.progress(progress_of(lane, halvings, record_steps, n + 1, row)) == RunAnswer::stop)
+            result.status = Status::interrupted;
+        else if (options_.ends_when_lifts_wake && result.cracks.wakes())
             result.status = Status::interrupted;
         else if (has_diverged(dynamics, result.history.energy.front().strain))
             result.status = Status::diverged;

@@ -152,6 +152,19 @@ LiftJoint lift_at(const Scene& scene, double elevation)
             lifts.uplift == LiftUplift::none ? JointWater::none : JointWater::linear};
 }
 
+Scene scene_above_made_lift(const Scene& scene, const LiftJoint& joint)
+{
+    const Lifts& lifts = scene.lifts.value();
+    Scene part = scene_above(scene, joint);
+    if (lifts.uplift != LiftUplift::drains) return part;
+    part.uplift->model = UpliftModel::drains;
+    Drains& drains = part.drains.emplace();
+    drains.distance = lifts.drains_distance.value_or(0.0);
+    drains.efficiency = lifts.drains_efficiency;
+    if (lifts.gallery_level) drains.gallery_level = *lifts.gallery_level - joint.elevation;
+    return part;
+}
+
 double amplification_at(const Scene& scene, double elevation)
 {
     if (!scene.lifts) return 1.0;
@@ -189,18 +202,8 @@ std::vector<LiftPlane> lift_planes(const Scene& scene, const std::vector<GroundS
         plane.elevation = elevation;
         const bool made = std::none_of(scene.lift_joints.begin(), scene.lift_joints.end(),
                                        [&](const LiftJoint& j) { return j.name == plane.name && j.elevation == elevation; });
-        Scene part = scene_above(scene, plane.joint);
-        double uplift_share = 1.0;
-        if (made && scene.lifts->uplift != LiftUplift::none) {
-            uplift_share = scene.lifts->uplift_share;
-            if (scene.lifts->uplift == LiftUplift::drains) {
-                part.uplift->model = UpliftModel::drains;
-                Drains& drains = part.drains.emplace();
-                drains.distance = scene.lifts->drains_distance.value_or(0.0);
-                drains.efficiency = scene.lifts->drains_efficiency;
-                if (scene.lifts->gallery_level) drains.gallery_level = *scene.lifts->gallery_level - elevation;
-            }
-        }
+        const Scene part = made ? scene_above_made_lift(scene, plane.joint) : scene_above(scene, plane.joint);
+        const double uplift_share = made && scene.lifts->uplift != LiftUplift::none ? scene.lifts->uplift_share : 1.0;
         plane.length = base_length(part.section);
         const MovedPart alone = moved_part(scene, part, elevation, nullptr);
         const MovedPart moved = uniform ? alone : moved_part(scene, part, elevation, share);

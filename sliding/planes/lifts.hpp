@@ -12,6 +12,9 @@ namespace damslip::sliding {
 /// The joint of an elevation: the [[lift_joint]] that is there, else the one that [lifts] makes, named "lift at 30 m".
 LiftJoint lift_at(const Scene& scene, double elevation);
 
+/// scene_above() a joint that [lifts] makes, with its water. @pre scene.lifts
+Scene scene_above_made_lift(const Scene& scene, const LiftJoint& joint);
+
 /// Ratio of the acceleration at a height to that of the ground, A(y), by lifts.amplification; `modes`: 1, for the caller has
 /// the modes [-].
 double amplification_at(const Scene& scene, double elevation);

@@ -98,10 +98,11 @@ FeOptions options_with_state(const FeArguments& arguments, const Ready& ready)
 
 /// `fe`: the dam slides, opens and rocks on its base. Static stages, earthquake with exact Coulomb contact, run-out, static state after
 /// it; the rigid block's slip beside it.
-int run_contact(const FeArguments& arguments, const Ready& ready, const SpectrumLevel* spectrum, const Streams& streams)
+int run_contact(const FeArguments& arguments, const Ready& prepared, const SpectrumLevel* spectrum, const Streams& streams)
 {
     TerminalWatch watch(streams);
-    ContactRuns all(ready, options_with_state(arguments, ready), watch);
+    ContactRuns all(prepared, options_with_state(arguments, prepared), watch);
+    const Ready& ready = all.ready();
     const fe2d::EarthquakeRun& model = all.model();
     const FeReport::Input shared{ready.scene, ready.plan, ready.records(), model, all.rigid(), all.uplift(),
                                  all.combinations()};
@@ -196,7 +197,7 @@ int fe(const FeArguments& arguments, const Streams& streams)
         refuse_usage("--frames with --base tied.", "a time series of a dam that slides and opens",
                      "leave one of them out");
     const std::vector<LevelSpectrum> spectra = given_spectra(arguments.spectrum);
-    const Ready ready = prepare(given, Method::finite_elements, {.stop = streams.stop});
+    const Ready ready = prepare(given, Method::finite_elements, {.joints_of_lifts = !arguments.reduced, .stop = streams.stop});
     if (arguments.reduced || arguments.base != "tied") say_base(ready.scene, streams);
     if (ready.reservoir) streams.remark(ready.reservoir->reason);
     if (ready.dam_period)

@@ -1,5 +1,6 @@
 #include "cli/model_commands.hpp"
 
+#include "analysis/prepare/lift_joints.hpp"
 #include "analysis/spectrum/spectrum_level.hpp"
 #include "cli/command.hpp"
 #include "cli/verifier.hpp"
@@ -96,7 +97,7 @@ int mesh(const MeshArguments& arguments, const Streams& streams)
     if (!arguments.results.empty())
         throw UsageError(
             Diagnostic{"", 0, 0, "--results without --to calculix.", "results of CalculiX", "add  --to calculix"});
-    const Scene given = read_run_scene(arguments.inputs, streams);
+    const Scene given = with_joints_of_lifts(read_run_scene(arguments.inputs, streams));
     need_section(given, "damslip mesh", "a wedge is rigid; damslip screen SCENE gives its slip");
     const Scene scene = called_for(make_effect_plan(given, Method::finite_elements), given);
     fe2d::ContactExtension extension;
@@ -105,6 +106,7 @@ int mesh(const MeshArguments& arguments, const Streams& streams)
     const fe2d::MeshQuality quality = fe2d::measure_quality(mesh);
     Table table = mesh_table(mesh);
     for (std::string& note : note_texts(given.notes)) table.notes.push_back(std::move(note));
+    for (std::string& note : bond_messages(scene, mesh)) table.notes.push_back(std::move(note));
     if (scene.mesh.file) table.notes.push_back(import_note(scene, fe2d::import_mesh(scene, extension).summary));
     if (!arguments.out.empty()) {
         const auto version = arguments.format == "2.2" ? fe2d::GmshVersion::v2_2 : fe2d::GmshVersion::v4_1;

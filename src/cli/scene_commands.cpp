@@ -183,6 +183,7 @@ void add_model(const Ready& ready, Explained& out)
 {
     out.plan = ready.plan; // names the water that was chosen
     out.model = fe2d::build_model(ready.scene, ready.model_options());
+    out.lift_joints = ready.scene.lift_joints;
     if (ready.plan.on(Effect::acoustic_water) && has_water(ready.scene)) out.water = fe2d::build_fluid(ready.scene);
     out.cost = contact_cost(ready);
     for (std::string& note : water_notes(ready)) out.notes.push_back(std::move(note));
@@ -234,7 +235,7 @@ int explain(const ExplainArguments& arguments, const Streams& streams)
     const Method method = arguments.method == "fe" ? Method::finite_elements : Method::rigid_block;
     Explained out{given, arguments.method, make_effect_plan(given, method), {}, {}, {}, note_texts(given.notes)};
     if (method == Method::finite_elements)
-        add_model(prepare(given, method, records_at_hand(given), {.stop = streams.stop}), out);
+        add_model(prepare(given, method, records_at_hand(given), {.joints_of_lifts = true, .stop = streams.stop}), out);
     if (streams.form == Form::json)
         streams.out << explain_json(out).dump(2) << "\n";
     else

@@ -36,7 +36,7 @@ struct FeResult final : Result {
         std::vector<std::pair<std::string, Table>> list{
             {"runs", contact_run_table(runs, allowable())}, {"slip", contact_slip_table(runs)},
             {"stages", contact_stage_table(runs)},          {"run_out", run_out_table(runs)},
-            {"energy", contact_energy_table(runs)},         {"counts", contact_count_table(runs)}};
+            {"energy", contact_energy_table(runs)},         {"counts", contact_count_table(runs)}, {"cracking", crack_table(runs)}};
         if (!ready.scene.lift_joints.empty()) list.emplace_back("lift_joints", contact_lift_table(runs, allowable()));
         if (!ready.scene.anchors.empty()) list.emplace_back("anchors", contact_anchor_table(runs));
         return list;
@@ -51,8 +51,9 @@ void compute(const OpenedScene& opened, const FeOptions& options, bool spread, W
     if (opened.scene.wedge)
         refuse_usage("finite elements cannot take a [wedge].", "a scene with a [section]",
                      "scene.screen() gives the slip of the wedge");
-    result.ready = prepare(opened.scene, Method::finite_elements, {.stop = watch.stop()});
+    result.ready = prepare(opened.scene, Method::finite_elements, {.joints_of_lifts = true, .stop = watch.stop()});
     result.models = std::make_unique<ContactRuns>(result.ready, options, watch);
+    result.ready = result.models->ready(); // with the lifts that have woken
     const fe2d::EarthquakeRun& model = result.models->model();
     result.report.emplace(result.input());
     pages::ModelNotes of_model(result.ready.scene, model);

@@ -50,8 +50,12 @@ Decision decide_yielding_contact(const Scene& s, Method method)
 
 Decision decide_lift_joints(const Scene& s, Method method)
 {
-    return of_finite_elements(method, !s.lift_joints.empty(), fmt::format("{} [[lift_joint]]", s.lift_joints.size()),
-                              "no [[lift_joint]]", "each node of a joint twice, one contact pair each");
+    const std::string yes = s.tied_lifts.empty() ? fmt::format("{} [[lift_joint]]", s.lift_joints.size())
+                                                 : fmt::format("[lifts]: {} tied until they come near their strength, {} "
+                                                               "joints",
+                                                               s.tied_lifts.size(), s.lift_joints.size());
+    return of_finite_elements(method, !s.lift_joints.empty() || !s.tied_lifts.empty(), yes, "no [[lift_joint]]",
+                              "each node of a joint twice, one contact pair each");
 }
 
 Decision decide_lift_joint_water(const Scene& s, Method method)
@@ -66,6 +70,7 @@ Decision decide_lift_joint_water(const Scene& s, Method method)
 void delete_lift_joints(Scene& s)
 {
     s.lift_joints.clear();
+    s.tied_lifts.clear();
     std::erase_if(s.anchors, [](const Anchor& anchor) { return !anchor.joint.empty(); });
 }
 

@@ -40,7 +40,11 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
          number("young_modulus", modulus, Range::above(0), "none; FE commands ask for it", "Young's modulus", "25",
                 at(&Material::young_modulus)),
          number("poisson_ratio", none, Range{0, 0.5, false, true}, "0.2", "Poisson's ratio", "0.17",
-                at(&Material::poisson_ratio))}));
+                at(&Material::poisson_ratio)),
+         number("tensile_strength", {{"MPa", 1e6}, {"kPa", 1e3}, {"Pa", 1.0}}, Range::above(0), "none: `fe` gives the largest stress itself",
+                "of the concrete, against which `fe` holds the largest tension away from all joints; mass concrete has 1.5 to "
+                "3 MPa (Raphael 1984)",
+                "2.5", at(&Material::tensile_strength))}));
     append(base_groups());
     append(water_groups());
     using F = PointForce;
@@ -128,7 +132,7 @@ constexpr std::array rows{
     Row{"section", all},
     Row{"wedge", rigid | equilibrium | regressions}, Row{"wedge.plane", rigid | equilibrium | regressions},
     Row{"wedge.force", rigid | equilibrium | regressions},
-    Row{"dam", model}, Row{"dam.density", all},
+    Row{"dam", model}, Row{"dam.density", all}, Row{"dam.tensile_strength", fe},
 
     Row{"contact", slips}, Row{"contact.friction", statics}, Row{"contact.cohesion", statics},
     Row{"contact.cohesion_lost_at_slip", slips | equilibrium}, Row{"contact.residual_friction", slips | equilibrium},
@@ -143,7 +147,9 @@ constexpr std::array rows{
     Row{"contact.relaxation_time", rigid | fe}, Row{"contact.relaxation_slip", rigid | fe},
     Row{"contact.restitution", rigid | fe},
     Row{"lift_joint", fe}, Row{"lift_joint.elevation", fe | tied},
-    Row{"lifts", rigid}, Row{"lifts.active", 0}, Row{"seam", rigid}, Row{"seam.wedge", rigid}, Row{"seam.interface", rigid},
+    Row{"lifts", rigid | fe}, Row{"lifts.active", fe}, Row{"lifts.fracture_energy_tension", fe},
+    Row{"lifts.fracture_energy_shear", fe}, Row{"lifts.amplification", rigid}, Row{"lifts.crest_amplification", rigid},
+    Row{"lifts.exponent", rigid}, Row{"lifts.amplification_points", rigid}, Row{"seam", rigid}, Row{"seam.wedge", rigid}, Row{"seam.interface", rigid},
     Row{"planes", rigid},
     Row{"anchor", rigid | fe}, Row{"anchor.distance", equilibrium | spectrum | fe},
     Row{"anchor.prestress", rigid | equilibrium | regressions | spectrum | fe},
@@ -224,7 +230,7 @@ const std::array left_out{
             },
             "it has no period; its water is incompressible"},
     LeftOut{finite_elements, "[lifts]", [](const Scene& s) { return s.lifts.has_value(); },
-            "their dam is tied there; write each lift that may slide as a [[lift_joint]]"},
+            "their dam is tied there; `fe` and `assess` let them slide"},
     LeftOut{finite_elements, "[[seam]]", [](const Scene& s) { return !s.seams.empty(); },
             "their rock has no joint in it; `screen` and `sweep --plane` follow the seam"},
     LeftOut{regressions, "[[seam]]", [](const Scene& s) { return !s.seams.empty(); }, nullptr},

@@ -25,7 +25,9 @@ KeyGroup lifts_group(const std::vector<Key>& contact)
              "jointed: no cohesion and no tensile strength; bonded: cohesion and tensile_strength are required",
              "\"bonded\"", choice(&L::bonded, std::vector<std::pair<std::string, bool>>{{"jointed", false},
                                                                                         {"bonded", true}}))};
-    for (Key& key : strength_keys(contact, &L::strength, coulomb)) list.push_back(std::move(key));
+    std::set<std::string> strength = coulomb;
+    strength.insert({"fracture_energy_tension", "fracture_energy_shear"});
+    for (Key& key : strength_keys(contact, &L::strength, strength)) list.push_back(std::move(key));
     const std::vector<Key> more{
         only_where<L>([](const L& l) { return l.bonded; },
                       number("tensile_strength", stress, Range::between(0, 1e4), "required with bond bonded",
@@ -66,8 +68,8 @@ KeyGroup lifts_group(const std::vector<Key>& contact)
               "height above the heel, acceleration over the ground's; constant beyond the ends", "[[0, 1], [60, 3]]",
               at(&L::points)),
         word("active", "adaptive",
-             "for `fe`, which does not follow them yet: lifts that may slide and open: where their strength is nearly "
-             "reached (adaptive), all, none",
+             "FE: lifts that may slide and open: those that come near their strength (adaptive: each is tied until its "
+             "tractions reach 0.8 of it anywhere, then the run begins anew with it), all, none",
              "\"all\"",
              choice(&L::active, std::vector<std::pair<std::string, ActiveLifts>>{{"adaptive", ActiveLifts::adaptive},
                                                                                  {"all", ActiveLifts::all},

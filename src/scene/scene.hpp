@@ -30,6 +30,7 @@ struct Material {
     double density = 0.0;                ///< [kg/m^3]; 0: massless
     std::optional<double> young_modulus; ///< [Pa]; needed by FE commands only
     double poisson_ratio = 0.2;          ///< [-]
+    std::optional<double> tensile_strength = {}; ///< of the dam's concrete, for what FE runs say of cracks [Pa]
 };
 
 enum class RockMass { massless, with_mass }; ///< does the rock move with inertia, or only give way
@@ -200,6 +201,7 @@ struct LiftJoint {
     Contact strength; ///< friction, cohesion, bond, residual values and table only; the members for FE runs keep their
                       ///< defaults, [contact] says them for all planes
     JointWater water = JointWater::none;
+    std::vector<Point> pressures = {}; ///< of a lift of [lifts]: x = from the upstream face [m], y = of its water [Pa]
 };
 
 enum class LiftUplift { none, linear, drains };
@@ -486,6 +488,7 @@ struct Scene {
     Material dam;
     Contact contact;
     std::vector<LiftJoint> lift_joints; ///< from the bottom up
+    std::vector<LiftJoint> tied_lifts; ///< FE: lines of the mesh that do not part, whose strength is watched; the same order
     std::optional<Lifts> lifts;
     std::vector<Seam> seams;
     PlaneOptions planes;

@@ -267,7 +267,7 @@ void run_finite_elements(const Scene& given, BudgetWatch& watch, Assessment& a)
     try_in_time("finite elements", watch, a.left_out, [&] {
         const Records records = worst_first(load_records(given, Method::finite_elements), a);
         a.fe = prepare(scene_of_finite_elements(given, a.rock_change), Method::finite_elements, records,
-                       {.stop = watch.stop()});
+                       {.joints_of_lifts = true, .stop = watch.stop()});
         coarse = runs_on_coarser_mesh(*a.fe, watch);
         ContactRuns all(*a.fe, {}, watch);
         std::vector<ContactRun> runs = all.run([](ContactRun& r, const GroundMotion&) { r.fe.history = {}; });

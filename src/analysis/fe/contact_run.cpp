@@ -39,6 +39,21 @@ SlipError error_of(double step, double mesh, MeshCheck check)
 
 } // namespace
 
+bool would_crack(const ContactRun& r)
+{
+    const fe2d::CrackFigures& cracks = r.fe.cracks;
+    return cracks.stress > r.tensile_strength.value_or(usual_tensile_strength[1]) ||
+           std::any_of(cracks.lifts.begin(), cracks.lifts.end(), [](const auto& lift) { return lift.index > 1.0; });
+}
+
+const ContactRun* most_tensioned(const std::vector<ContactRun>& runs)
+{
+    const ContactRun* most = nullptr;
+    for (const ContactRun& r : runs)
+        if (r.fe.cracks.known && (!most || r.fe.cracks.stress > most->fe.cracks.stress)) most = &r;
+    return most;
+}
+
 bool has_slip(const ContactRun& r)
 {
     return reported(r.fe.status, r.fe.max_slip).has_value();

@@ -22,6 +22,7 @@ struct ContactRun : MotionName {
     std::optional<fe2d::RunResult> exact;      ///< with rigid sticking, where that of `fe` gives way
     MeshError mesh;
     bool leaves_out = false; ///< something that the scene asks for (not_honoured()): no PASS rests on the slip
+    std::optional<double> tensile_strength = {}; ///< dam.tensile_strength, against which `fe.cracks` is held [Pa]
 };
 
 /// What is known of the numerical error of a slip [m]; NaN: nothing.
@@ -35,6 +36,14 @@ struct SlipError {
 };
 SlipError slip_error(const ContactRun& run);
 SlipError lift_error(const ContactRun& run, std::size_t lift);
+
+/// Splitting strengths of mass concrete of 10 to 30 MPa, 0.32 f_c^(2/3) with both in MPa (Raphael 1984, ACI Journal 81, 158)
+/// [Pa]: without dam.tensile_strength the concrete is said to crack above the largest.
+inline constexpr double usual_tensile_strength[] = {1.5e6, 3e6};
+/// Would the concrete crack where the model has no joint, or a tied lift slip or part?
+bool would_crack(const ContactRun& run);
+/// The run with the largest tension away from joints. @returns null: no run was watched
+const ContactRun* most_tensioned(const std::vector<ContactRun>& runs);
 
 /// Does its status have a slip?
 bool has_slip(const ContactRun& run);

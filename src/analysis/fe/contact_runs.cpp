@@ -1,5 +1,6 @@
 #include "analysis/fe/contact_runs.hpp"
 
+#include "analysis/prepare/lift_joints.hpp"
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
 #include "scene/joint_bond.hpp"
@@ -31,7 +32,7 @@ fe2d::RunAnswer answer(const Watch& watch)
 ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& watch)
     : ready_(ready), watch_(watch), meter_(watch), polarity_(options.polarity), jobs_(options.jobs),
       options_(ready.run_options(watch)), coarser_(
-                                              ready, options.mesh_error && !options.start,
+                                              ready_, options.mesh_error && !options.start,
                                               [this](const fe2d::RunProgress& p) {
                                                   meter_.reached(share_of_run + (1.0 - share_of_run) * share_of(p));
                                                   return answer(watch_);
@@ -49,15 +50,54 @@ ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& wa
         meter_.reached(share_of_run * share_of(p));
         return answer(watch_);
     };
+    options_.ends_when_lifts_wake = !options_.start;
     model_.emplace(ready.scene, options_);
     if (options_.start && options_.start->pairs() != model_->structure().pairs())
         throw InputError(Diagnostic{ready.scene.file.string(), 0, 0,
                                     fmt::format("the state is of {} pairs, the model has {}.", options_.start->pairs(),
                                                 model_->structure().pairs()),
                                     "the state of the same model", "write the state anew with  --state-out"});
-    if (const std::optional<Scene> exact = with_exact_contact(ready.scene)) exact_.emplace(*exact, plain);
+    wake_lifts();
+    if (const std::optional<Scene> exact = with_exact_contact(ready_.scene)) exact_.emplace(*exact, plain);
     rigid_ = ready.rigid_model();
     combinations_ = ready.combinations();
+}
+
+/// Runs every record on the model in which no more lifts wake.
+void ContactRuns::wake_lifts()
+{
+    if (ready_.scene.tied_lifts.empty() || options_.start) return;
+    found_.resize(ready_.records().size());
+    for (bool woken = true; woken;) {
+        woken = false;
+        for (std::size_t k = 0; k < found_.size() && !watch_.stop_asked(); ++k) {
+            Found& found = found_[k];
+            while (found.runs.empty() || found.model != passes_to_wake_) {
+                const std::vector<GroundMotion> motions = ready_.motions(ready_.records()[k], polarity_);
+                found.runs.assign(motions.size(), {});
+                found.model = passes_to_wake_;
+                parallel_for(motions.size(), jobs_,
+                             [&](std::size_t i) { found.runs[i] = model_->run(motions[i]); });
+                if (watch_.stop_asked()) return;
+                woken = wake(found.runs) || woken;
+            }
+        }
+    }
+}
+
+/// Makes joints of the lifts that have reached wake_index. @returns whether there are any
+bool ContactRuns::wake(const std::vector<fe2d::RunResult>& runs)
+{
+    std::vector<std::string> names;
+    for (const fe2d::RunResult& run : runs)
+        for (const fe2d::TiedLift& lift : run.cracks.lifts)
+            if (lift.index >= fe2d::wake_index) names.push_back(lift.name);
+    if (names.empty()) return false;
+    ++passes_to_wake_;
+    ready_.scene = with_awake_lifts(std::move(ready_.scene), names);
+    watch_.phase(fmt::format("{} lifts wake, model {}", ready_.scene.lift_joints.size(), passes_to_wake_ + 1));
+    model_.emplace(ready_.scene, options_);
+    return true;
 }
 
 std::size_t ContactRuns::whole() const
@@ -69,13 +109,15 @@ std::vector<ContactRun> ContactRuns::run(const TakeRun& take)
 {
     std::vector<ContactRun> runs;
     const std::vector<MotionName> names = motion_names(ready_.scene, ready_.records(), polarity_);
-    for (const RecordPair& pair : ready_.records()) {
+    for (std::size_t k = 0; k < ready_.records().size(); ++k) {
         if (watch_.stop_asked()) break;
-        const std::vector<GroundMotion> motions = ready_.motions(pair, polarity_);
+        const std::vector<GroundMotion> motions = ready_.motions(ready_.records()[k], polarity_);
         std::vector<ContactRun> both(motions.size());
         parallel_for(motions.size(), jobs_, [&](std::size_t i) {
             static_cast<MotionName&>(both[i]) = names[runs.size() + i];
             both[i].leaves_out = !not_honoured(ready_.scene, methods::fe).empty();
+            both[i].tensile_strength = ready_.scene.dam.tensile_strength;
+            if (!found_.empty() && !found_[k].runs.empty()) both[i].fe = std::move(found_[k].runs[i]);
             run(motions[i], both[i]);
         });
         for (std::size_t i = 0; i < both.size(); ++i) {
@@ -90,7 +132,7 @@ std::vector<ContactRun> ContactRuns::run(const TakeRun& take)
 void ContactRuns::run(const GroundMotion& motion, ContactRun& r)
 {
     meter_.begin(1);
-    r.fe = model_->run(motion);
+    if (r.fe.stages.empty()) r.fe = model_->run(motion); // else it has run while lifts were waking
     watch_.results_at_hand();
     r.mesh = coarser_.error_of(*model_, r.fe, motion);
     if (exact_ && !watch_.stop_asked()) r.exact = exact_->run(motion);

@@ -58,12 +58,18 @@ struct FeOptions {
 
 /// The models of one scene, and the runs on them: static stages, earthquake with exact Coulomb contact, run-out, static
 /// state after it; the rigid block's slip beside it; where the contact law gives way, the same run with exact contact.
+///
+/// Tied lifts wake: a run in which some of them reach fe2d::wake_index ends there, these become lift joints (with the mesh that
+/// their bond asks for), and the run begins anew from t = 0, until no run of any record wakes another. What slept has then
+/// stayed below its strength, so as a joint it would not have moved; what was found before is run again on the last model.
 class ContactRuns {
 public:
     /// Meshes, assembles and condenses. @param ready, watch  outlive this
     /// @throws InputError, NotConverged, Interrupted
     ContactRuns(const Ready& ready, const FeOptions& options, Watch& watch);
 
+    const Ready& ready() const { return ready_; } ///< as given; its lifts that have woken are lift joints
+    std::size_t passes_to_wake() const { return passes_to_wake_; } ///< models that a run left because lifts woke
     const fe2d::EarthquakeRun& model() const { return *model_; }
     const RigidModel& rigid() const { return rigid_; }
     const PressureProfile& uplift() const
@@ -83,8 +89,16 @@ public:
 
 private:
     void run(const GroundMotion& motion, ContactRun& r);
+    void wake_lifts();
+    bool wake(const std::vector<fe2d::RunResult>& runs);
 
-    const Ready& ready_;
+    /// What a run of one record and polarity has come to while lifts were waking.
+    struct Found {
+        std::vector<fe2d::RunResult> runs; ///< by polarity; empty: not run
+        std::size_t model = 0;             ///< passes_to_wake_ of its model
+    };
+
+    Ready ready_;
     Watch& watch_;
     FeMeter meter_;
     std::optional<int> polarity_;
@@ -94,6 +108,8 @@ private:
     std::optional<fe2d::EarthquakeRun> model_, exact_;
     RigidModel rigid_;
     std::vector<sliding::Equilibrium> combinations_;
+    std::vector<Found> found_; ///< by record; empty: no lift can wake
+    std::size_t passes_to_wake_ = 0;
 };
 
 /// The same on few modes of the dam: static stages by the full model, the slip with an estimate of what the reduction

@@ -1,6 +1,7 @@
 #include "analysis/prepare/ready.hpp"
 
 #include "analysis/prepare/flexible_mass.hpp"
+#include "analysis/prepare/lift_joints.hpp"
 #include "analysis/prepare/reducible.hpp"
 #include "core/file.hpp"
 #include "fe2d/run/earthquake_run.hpp"
@@ -201,6 +202,7 @@ Ready prepare(Scene given, Method method, Records records, const PrepareOptions&
     ready.seepage = options.seepage ? options.seepage : std::make_shared<SeepageSource>();
     ready.statics = options.statics;
     if (records) given.motion.records = files_of(*records);
+    if (options.joints_of_lifts) given = with_joints_of_lifts(std::move(given));
     ready.pairs = records ? std::move(records) : std::make_shared<const std::vector<RecordPair>>();
     if (options.flexible_modes) ready.flexible_modes = resolve_flexible_modes(given);
     note_not_honoured(given, method == Method::finite_elements

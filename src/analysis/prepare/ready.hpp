@@ -73,6 +73,7 @@ struct Ready {
 
 struct PrepareOptions {
     bool flexible_modes = false;                 ///< find flexible_block.period_s = "modes", which screening asks for
+    bool joints_of_lifts = false;                ///< [lifts] as joints of the finite elements (with_joints_of_lifts())
     std::shared_ptr<SeepageSource> seepage = {}; ///< of scenes that it may serve together; none: one of its own
     std::shared_ptr<KeptStatics> statics = {};   ///< the same for the rigid block's statics, whatever the friction
     StopAsked stop = {};                         ///< asked between the eigenvalue problems of "auto", "dam" and "modes"

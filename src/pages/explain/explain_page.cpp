@@ -21,7 +21,7 @@ Table joint_table(const Explained& in)
     };
     std::vector<Row> rows;
     for (std::size_t i = 0; i < in.model->mesh.lifts.size(); ++i)
-        rows.push_back({in.given.lift_joints[i], in.model->mesh.lifts[i]});
+        rows.push_back({in.lift_joints[i], in.model->mesh.lifts[i]});
     return table_of<Row>(
         "Lift joints",
         {{{"joint", "joint"}, [](const Row& r) { return r.joint.name; }},

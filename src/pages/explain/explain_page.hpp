@@ -20,6 +20,7 @@ struct Explained {
     std::optional<fe2d::FluidModel> water; ///< acoustic
     std::optional<ContactCost> cost;       ///< of an FE run
     std::vector<std::string> notes;
+    std::vector<LiftJoint> lift_joints = {}; ///< of the model
 };
 
 nlohmann::ordered_json explain_json(const Explained& in);

@@ -187,6 +187,42 @@ Table contact_stage_table(const std::vector<ContactRun>& runs)
                         "stages."});
 }
 
+namespace {
+
+constexpr std::size_t tied_lift_columns = 4; ///< the last of crack_columns()
+
+std::vector<ContactColumn> crack_columns()
+{
+    using R = ContactRun;
+    using F = fe2d::CrackFigures;
+    const auto of_cracks = [](double (*value)(const F&)) {
+        return [=](const R& r) { return r.fe.cracks.known ? Cell(value(r.fe.cracks)) : Cell(); };
+    };
+    const auto of_lift = [](Cell (*value)(const fe2d::TiedLift&)) {
+        return [=](const R& r) {
+            const auto& lifts = r.fe.cracks.lifts;
+            const auto most = std::max_element(lifts.begin(), lifts.end(),
+                                               [](const auto& a, const auto& b) { return a.index < b.index; });
+            return r.fe.cracks.known && most != lifts.end() ? value(*most) : Cell();
+        };
+    };
+    return {{{"tension_MPa", "largest σ₁", "MPa", 3}, of_cracks([](const F& f) { return 1e-6 * f.stress; })},
+            {{"tension_over_strength", "over f_t", "–", 3},
+             [](const R& r) {
+                 return r.fe.cracks.known && r.tensile_strength ? Cell(r.fe.cracks.stress / *r.tensile_strength) : Cell();
+             }},
+            {{"tension_x_m", "x", "m", 4}, of_cracks([](const F& f) { return f.at.x; })},
+            {{"tension_y_m", "y", "m", 4}, of_cracks([](const F& f) { return f.at.y; })},
+            {{"tension_time_s", "at", "s", 4}, of_cracks([](const F& f) { return f.time; })},
+            {{"tied_lift", "tied lift"}, of_lift([](const fe2d::TiedLift& lift) { return Cell(lift.name); })},
+            {{"tied_lift_index", "its index", "–", 3}, of_lift([](const fe2d::TiedLift& lift) { return Cell(lift.index); })},
+            {{"tied_lift_x_m", "from its upstream end", "m", 4},
+             of_lift([](const fe2d::TiedLift& lift) { return Cell(lift.distance); })},
+            {{"tied_lift_time_s", "at", "s", 4}, of_lift([](const fe2d::TiedLift& lift) { return Cell(lift.time); })}};
+}
+
+} // namespace
+
 std::vector<ContactColumn> contact_run_columns(const std::optional<double>& allowable)
 {
     using R = ContactRun;
@@ -194,7 +230,8 @@ std::vector<ContactColumn> contact_run_columns(const std::optional<double>& allo
         const std::optional<double> slip = r.rigid ? reported(r.rigid->status, r.rigid->slip) : std::nullopt;
         return slip ? Cell(1e3 * *slip) : Cell();
     };
-    return {record_column,
+    std::vector<ContactColumn> columns{
+            record_column,
             polarity_column,
             {{"status", "status"}, [](const R& r) { return word(r.fe.status); }},
             {{"slip_mm", "slip at end (mean of base)", "mm", 5}, [](const R& r) { return slip_cell(r, r.fe.slip); }},
@@ -215,6 +252,44 @@ std::vector<ContactColumn> contact_run_columns(const std::optional<double>& allo
             {{"seconds", "time", "s", 3}, [](const R& r) { return r.fe.seconds.statics + r.fe.seconds.dynamics; }},
             {{"walked_at_least_m", "slid at least", "m", 5},
              [](const R& r) { return optional_cell(walked_at_least(r.fe.status, r.fe.slip)); }}};
+    for (ContactColumn& column : crack_columns()) columns.push_back(std::move(column));
+    return columns;
+}
+
+Table crack_table(const std::vector<ContactRun>& runs)
+{
+    const bool tied = std::any_of(runs.begin(), runs.end(), [](const ContactRun& r) { return !r.fe.cracks.lifts.empty(); });
+    std::vector<ContactColumn> columns{record_column, polarity_column};
+    for (ContactColumn& column : crack_columns()) columns.push_back(std::move(column));
+    if (!tied) columns.resize(columns.size() - tied_lift_columns);
+    std::vector<std::string> notes{
+        "σ₁: largest principal tension away from base, joints and lifts, static state included, mean over about a "
+        "characteristic length or over the element, whichever is larger."};
+    if (tied) notes.push_back("tied lift: the one that comes nearest to its strength, 1 where it would slip or part.");
+    return table_of<ContactRun>("Where the concrete comes nearest to cracking", columns, runs, notes);
+}
+
+std::string crack_words(const ContactRun& r)
+{
+    const fe2d::CrackFigures& cracks = r.fe.cracks;
+    std::string words = fmt::format("σ₁ {:.3g} MPa", 1e-6 * cracks.stress);
+    words += r.tensile_strength ? fmt::format(", {:.3g} of f_t,", cracks.stress / *r.tensile_strength) : "";
+    return words + fmt::format(" at x {:.3g} m, y {:.3g} m, {:.4g} s", cracks.at.x, cracks.at.y, cracks.time);
+}
+
+std::string crack_sentence(const std::vector<ContactRun>& runs)
+{
+    const ContactRun* most = most_tensioned(runs);
+    if (!most || std::none_of(runs.begin(), runs.end(), would_crack)) return {};
+    if (!would_crack(*most)) return " A tied lift would slip or part: see the table of cracking.";
+    return fmt::format(" The concrete would crack here: {}{}, where the model has no joint; run  fe  with a bonded "
+                       "[[lift_joint]] at elevation_m = {:.3g}, or [lifts].",
+                       crack_words(*most),
+                       most->tensile_strength ? ""
+                                              : fmt::format(", above the {:g} to {:g} MPa of mass concrete (Raphael 1984)",
+                                                            1e-6 * usual_tensile_strength[0],
+                                                            1e-6 * usual_tensile_strength[1]),
+                       most->fe.cracks.at.y);
 }
 
 void write_walked_slips(Table& t)

@@ -70,6 +70,13 @@ Table with_columns(const Table& from, std::initializer_list<std::string_view> ke
 Table answer_part(const Table& run_table);
 Table solution_part(const Table& run_table);
 
+/// Tension away from joints, and tied lifts; the same columns end contact_run_table().
+Table crack_table(const std::vector<ContactRun>& runs);
+/// "σ₁ 1.2 MPa, 0.41 of f_t, at x 3 m, y 66 m, 4.35 s". @pre run.fe.cracks.known
+std::string crack_words(const ContactRun& run);
+/// What cracks that the model does not have, and what to run; empty: nothing. Begins with a space.
+std::string crack_sentence(const std::vector<ContactRun>& runs);
+
 /// Slip of each run beside that of the same run with exact contact: what penalty, slip tolerance or soft
 /// normal contact err by.
 Table contact_law_table(const std::vector<ContactRun>& runs);

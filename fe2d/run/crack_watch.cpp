@@ -1,0 +1,306 @@
+#include "fe2d/run/crack_watch.hpp"
+
+#include "fe2d/element/elastic.hpp"
+#include "fe2d/model/static_solution.hpp"
+#include "scene/joint_bond.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace damslip::fe2d {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double default_strength = 2e6; ///< of mass concrete, for ℓ_ch alone [Pa]
+constexpr double default_energy = 200.0; ///< the same [N/m]
+constexpr double near_strength = 0.25;   ///< index of a line from which on every step counts
+constexpr long line_steps = 4, patch_steps = 16;
+constexpr double more_than_before = 1.01; ///< of the stress on the faces, so that all patches are looked at
+
+using Columns = std::map<int, std::array<double, 6>>; ///< by the first unknown of a node
+
+Point centre_of(const Mesh& mesh, const Element& element)
+{
+    Point centre;
+    const int size = element.size();
+    for (int i = 0; i < size; ++i) {
+        centre.x += mesh.nodes[static_cast<std::size_t>(element.nodes[i])].x / size;
+        centre.y += mesh.nodes[static_cast<std::size_t>(element.nodes[i])].y / size;
+    }
+    return centre;
+}
+
+double area_of(const Corners& c, int size)
+{
+    double twice = 0.0;
+    for (int i = 0; i < size; ++i) {
+        const Point &a = c[static_cast<std::size_t>(i)], &b = c[static_cast<std::size_t>((i + 1) % size)];
+        twice += a.x * b.y - b.x * a.y;
+    }
+    return 0.5 * twice;
+}
+
+/// σ₁ of (xx, yy, xy).
+double major(double xx, double yy, double xy)
+{
+    return 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
+}
+
+} // namespace
+
+bool CrackFigures::wakes() const
+{
+    return std::any_of(lifts.begin(), lifts.end(), [](const TiedLift& lift) { return lift.index >= wake_index; });
+}
+
+CrackLines::CrackLines(const Scene& scene, const ContactStructure& structure, double stiffness_damping)
+    : stiffness_damping_(stiffness_damping)
+{
+    const Mesh& mesh = structure.model().mesh;
+    for (std::size_t k = 0; k < mesh.tied_lifts.size(); ++k) {
+        none_yet_.lifts.push_back({scene.tied_lifts[k].name, scene.tied_lifts[k].elevation, 0.0, 0.0, 0.0});
+        add_line(scene, structure, scene.tied_lifts[k], mesh.tied_lifts[k].lower_nodes);
+    }
+    add_patches(scene, structure);
+}
+
+void CrackLines::add_line(const Scene& scene, const ContactStructure& structure, const LiftJoint& lift,
+                          const std::vector<int>& nodes)
+{
+    const Model& model = structure.model();
+    const Mesh& mesh = model.mesh;
+    const Eigen::Matrix3d d = plane_strain_matrix(model.materials.dam);
+    std::map<int, Columns> rows; // by node of the line
+    for (const int node : nodes) rows[node];
+    for (int e = 0; e < mesh.dam_element_count; ++e) {
+        const Element& element = mesh.elements[static_cast<std::size_t>(e)];
+        const int size = element.size();
+        if (std::none_of(element.nodes.begin(), element.nodes.begin() + size, [&](int n) { return rows.count(n); }))
+            continue;
+        const double share = centre_of(mesh, element).y > lift.elevation ? 0.5 : -0.5;
+        const ElementNodes all = element.all();
+        const ElementMatrix k = elastic_stiffness(corners(mesh, element), size, d, model.materials.kind, extra_nodes(element));
+        for (int i = 0; i < size; ++i) {
+            const auto row = rows.find(element.nodes[static_cast<std::size_t>(i)]);
+            if (row == rows.end()) continue;
+            for (int j = 0; j < all.count; ++j) {
+                auto& to = row->second[2 * structure.order().new_node[static_cast<std::size_t>(all[j])]];
+                for (const int r : {0, 1})
+                    for (const int c : {0, 1})
+                        to[static_cast<std::size_t>(2 * r + c)] += share * k(2 * i + r, 2 * j + c);
+            }
+        }
+    }
+    LiftPlane line{nodes, nodes, {}};
+    for (const int n : nodes)
+        line.distance.push_back(mesh.nodes[static_cast<std::size_t>(n)].x - mesh.nodes[static_cast<std::size_t>(nodes.front())].x);
+    const Plane plane = plane_of(line);
+    const PressureProfile water = lift_water_profile(scene, lift, line.distance.back());
+    Line made;
+    made.friction = FrictionOverSlip(lift.strength).at(0.0);
+    made.cohesion = lift.strength.cohesion;
+    made.tension = lift.strength.bond.tensile_strength;
+    made.bonded = breaks_by_energy(lift.strength);
+    made.together = bond_loss(lift.strength) == BondLoss::together;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        PairOfLine pair;
+        pair.area = plane.area[static_cast<Index>(i)];
+        pair.distance = line.distance[i];
+        pair.water = pressure_at(water, pair.distance) * pair.area;
+        pair.force.begin = static_cast<int>(node_.size());
+        for (const auto& [node, values] : rows[nodes[i]]) {
+            node_.push_back(node);
+            block_.push_back({{values[0], values[1], values[2], values[3], 0.0, 0.0}});
+        }
+        pair.force.end = static_cast<int>(node_.size());
+        made.pairs.push_back(pair);
+    }
+    lines_.push_back(std::move(made));
+}
+
+double CrackLines::Line::index(const CrackLines& of, const VectorXd& u, const VectorXd& v, double& distance) const
+{
+    constexpr double no_end = std::numeric_limits<double>::infinity();
+    double largest = 0.0, all_normal = 0.0, all_shear = 0.0, all_bond = 0.0;
+    const auto count = [&](double index, const PairOfLine& pair) {
+        if (index > largest) largest = index, distance = pair.distance;
+    };
+    for (const PairOfLine& pair : pairs) {
+        double x = 0.0, y = -pair.water;
+        for (int k = pair.force.begin; k < pair.force.end; ++k) {
+            const Index n = of.node_[static_cast<std::size_t>(k)];
+            const double* m = of.block_[static_cast<std::size_t>(k)].m;
+            const double a = u[n] + of.stiffness_damping_ * v[n], b = u[n + 1] + of.stiffness_damping_ * v[n + 1];
+            x += m[0] * a + m[1] * b;
+            y += m[2] * a + m[3] * b;
+        }
+        const double shear = std::abs(x), bond = cohesion * pair.area;
+        all_normal += y, all_shear += x, all_bond += bond;
+        if (bonded) {
+            const double over = std::max(0.0, shear - friction * std::max(0.0, y));
+            const auto share = [](double force, double strength) {
+                return force <= 0.0 ? 0.0 : strength > 0.0 ? force / strength : no_end;
+            };
+            count(std::hypot(share(-y, tension * pair.area), share(over, bond)), pair);
+        } else if (!(y > 0.0)) // nothing holds tension
+            count(no_end, pair);
+        else if (!together || bond == 0.0)
+            count(shear / (friction * y + bond), pair);
+    }
+    if (!bonded && together && all_bond > 0.0)
+        count(all_normal > 0.0 ? std::abs(all_shear) / (friction * all_normal + all_bond) : no_end, pairs.front());
+    return largest;
+}
+
+void CrackLines::add_patches(const Scene& scene, const ContactStructure& structure)
+{
+    const Model& model = structure.model();
+    const Mesh& mesh = model.mesh;
+    const Eigen::Matrix3d d = plane_strain_matrix(model.materials.dam);
+    const double strength = scene.dam.tensile_strength.value_or(default_strength);
+    const double nu = model.materials.dam.poisson_ratio;
+    double top = 0.0;
+    for (const int n : mesh.crest) top = std::max(top, mesh.nodes[static_cast<std::size_t>(n)].y);
+    const double length = std::min(
+        0.1 * top, characteristic_length(model.materials.dam.young_modulus / (1.0 - nu * nu), default_energy, strength));
+
+    enum : char { inside, face, line };
+    std::vector<char> kind(mesh.nodes.size(), inside);
+    const auto mark = [&](const std::vector<int>& nodes, char as) {
+        for (const int n : nodes) kind[static_cast<std::size_t>(n)] = as;
+    };
+    for (const auto* chain : {&mesh.upstream_face, &mesh.downstream_face, &mesh.crest}) mark(*chain, face);
+    mark(mesh.contact.dam_nodes, line);
+    std::vector<double> levels;
+    for (const std::vector<LiftPlane>* lifts : {&mesh.lifts, &mesh.tied_lifts})
+        for (const LiftPlane& lift : *lifts) {
+            mark(lift.lower_nodes, line);
+            mark(lift.upper_nodes, line);
+            levels.push_back(mesh.nodes[static_cast<std::size_t>(lift.lower_nodes.front())].y);
+        }
+    const Point heel = mesh.nodes[static_cast<std::size_t>(mesh.contact.dam_nodes.front())],
+                toe = mesh.nodes[static_cast<std::size_t>(mesh.contact.dam_nodes.back())];
+    const auto near_line = [&](const Point& p) {
+        const double base = heel.y + (toe.y - heel.y) * (p.x - heel.x) / (toe.x - heel.x);
+        return p.y - base < length ||
+               std::any_of(levels.begin(), levels.end(), [&](double y) { return std::abs(p.y - y) < length; });
+    };
+
+    struct Piece {
+        int element = 0;
+        Point at;
+        double area = 0.0;
+        bool face = false;
+    };
+    std::map<std::pair<long, long>, std::vector<Piece>> grid; // cells of ℓ_ch/2
+    const double cell = 0.5 * length;
+    const auto cell_of = [cell](const Point& p) {
+        return std::pair(std::lround(std::floor(p.x / cell)), std::lround(std::floor(p.y / cell)));
+    };
+    for (int e = 0; e < mesh.dam_element_count; ++e) {
+        const Element& element = mesh.elements[static_cast<std::size_t>(e)];
+        const int size = element.size();
+        const Point at = centre_of(mesh, element);
+        const auto has = [&](char what) {
+            return std::any_of(element.nodes.begin(), element.nodes.begin() + size,
+                               [&](int n) { return kind[static_cast<std::size_t>(n)] == what; });
+        };
+        if (has(line) || near_line(at)) continue;
+        grid[cell_of(at)].push_back({e, at, area_of(corners(mesh, element), size), has(face)});
+    }
+    std::vector<Patch> inner;
+    for (auto& [place, pieces] : grid) // one patch for each cell, about its largest element, one on a face if there is one
+    {
+        const Piece& middle = *std::max_element(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+            return std::pair(a.face, a.area) < std::pair(b.face, b.area);
+        });
+        std::vector<const Piece*> members;
+        double area = 0.0;
+        for (long i = place.first - 1; i <= place.first + 1; ++i)
+            for (long j = place.second - 1; j <= place.second + 1; ++j)
+                if (const auto found = grid.find({i, j}); found != grid.end())
+                    for (const Piece& piece : found->second)
+                        if (std::hypot(piece.at.x - middle.at.x, piece.at.y - middle.at.y) <= cell) {
+                            members.push_back(&piece);
+                            area += piece.area;
+                        }
+        Columns columns;
+        for (const Piece* piece : members) {
+            const Element& element = mesh.elements[static_cast<std::size_t>(piece->element)];
+            const ElementNodes all = element.all();
+            const Corners c = corners(mesh, element);
+            const ExtraNodes extra = extra_nodes(element);
+            ElementVector unit = ElementVector::Zero(2 * all.count);
+            for (Index j = 0; j < unit.size(); ++j) {
+                unit.setZero();
+                unit[j] = piece->area / area;
+                const Eigen::Vector3d stress = centre_stress(c, element.size(), d, model.materials.kind, unit, extra);
+                const int node = structure.order().new_node[static_cast<std::size_t>(all[static_cast<int>(j) / 2])];
+                auto& to = columns[2 * node];
+                for (const Index row : {0, 1, 2}) to[static_cast<std::size_t>(2 * row + j % 2)] += stress[row];
+            }
+        }
+        Patch patch{{static_cast<int>(node_.size()), 0}, middle.at, middle.face};
+        for (const auto& [node, values] : columns) {
+            node_.push_back(node);
+            Block& block = block_.emplace_back();
+            std::copy(values.begin(), values.end(), block.m);
+        }
+        patch.stress.end = static_cast<int>(node_.size());
+        (patch.on_face ? patches_ : inner).push_back(patch);
+    }
+    on_face_ = patches_.size();
+    patches_.insert(patches_.end(), inner.begin(), inner.end());
+}
+
+double CrackLines::tension_of(const Patch& patch, const VectorXd& u) const
+{
+    double xx = 0.0, yy = 0.0, xy = 0.0;
+    for (int k = patch.stress.begin; k < patch.stress.end; ++k) {
+        const Index n = node_[static_cast<std::size_t>(k)];
+        const double* m = block_[static_cast<std::size_t>(k)].m;
+        const double a = u[n], b = u[n + 1];
+        xx += m[0] * a + m[1] * b;
+        yy += m[2] * a + m[3] * b;
+        xy += m[4] * a + m[5] * b;
+    }
+    return major(xx, yy, xy);
+}
+
+void CrackWatch::look_at(const CrackLines::Patch& patch, double time, const VectorXd& u, CrackFigures& figures) const
+{
+    const double stress = lines_.tension_of(patch, u);
+    if (stress <= figures.stress) return;
+    figures.stress = stress;
+    figures.time = time;
+    figures.at = patch.at;
+}
+
+void CrackWatch::look(double time, const VectorXd& u, const VectorXd& v, CrackFigures& figures)
+{
+    figures.known = true;
+    for (std::size_t k = 0; k < lines_.lines_.size(); ++k) {
+        if (last_[k] < near_strength && steps_ % line_steps != 0) continue;
+        double distance = 0.0;
+        last_[k] = lines_.lines_[k].index(lines_, u, v, distance);
+        TiedLift& lift = figures.lifts[k];
+        if (last_[k] <= lift.index) continue;
+        lift.index = last_[k];
+        lift.time = time;
+        lift.distance = distance;
+    }
+    double on_face = 0.0;
+    for (std::size_t k = 0; k < lines_.on_face_; ++k)
+        on_face = std::max(on_face, lines_.tension_of(lines_.patches_[k], u));
+    if (on_face > figures.stress || on_face > more_than_before * on_face_ || steps_ % patch_steps == 0)
+        for (const CrackLines::Patch& patch : lines_.patches_) look_at(patch, time, u, figures);
+    on_face_ = std::max(on_face_, on_face);
+    ++steps_;
+}
+
+} // namespace damslip::fe2d
