@@ -239,7 +239,7 @@ TEST(Audit, A6_no_pass_above_tipping)
     EXPECT_TRUE(has(text.out, "Displacement of the block that rocks and slides"));
 
     const Folder weak(2.0); // below tipping the bonded block holds
-    for (const auto& row : weak.screened(bonded)["displacements"]) EXPECT_EQ(row["verdict"], "PASS");
+    for (const auto& row : weak.screened(bonded)["displacements"]) EXPECT_EQ(row["verdict"], "below");
 
     std::string sliding_first = bonded; // unbonded it slides before it tips: the block is the dam
     sliding_first.replace(sliding_first.find("1000"), 4, "0");
@@ -272,7 +272,7 @@ TEST(Audit, A6_rocking_on_request)
     ASSERT_EQ(asked.code, 0) << asked.talk;
     const nlohmann::json j = nlohmann::json::parse(asked.out);
     ASSERT_EQ(j["rocking_block"].size(), 2u);
-    for (const auto& row : j["displacements"]) EXPECT_EQ(row["verdict"], "PASS"); // the sliding block holds
+    for (const auto& row : j["displacements"]) EXPECT_EQ(row["verdict"], "below"); // the sliding block holds
 }
 
 // N' = W - U, c A' of the uncracked part: more than a third of the resistance is bond, so the slip is judged without it, too.
