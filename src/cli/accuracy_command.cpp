@@ -164,6 +164,10 @@ int run_one(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& 
     ClimbCalls calls;
     calls.run = [&](const Rung& r) { return runner.run(r); };
     const RungResult result = run_repeatedly(rung, 1, calls);
+    if (result.outcome == RungOutcome::refused)
+        throw InputError(
+            Diagnostic{a.inputs.scene.string(), 0, 0, fmt::format("--rung {} is refused: {}", a.rung, result.remark),
+                       "a model level that this scene admits", "leave --rung out: the table lists those that run"});
     const std::vector<MotionName> motions = motion_names(loaded.scene, *loaded.records);
     if (streams.form == Form::json)
         streams.out << one_rung_json(result, motions).dump(2) << "\n";

@@ -73,8 +73,8 @@ TEST_F(AccuracyInput, ASceneWithoutElasticityHasNoFiniteElementsAndSaysSo)
 
 TEST_F(AccuracyInput, ARungThatTheSceneCannotRunIsRefused)
 {
-    const std::string out = run({path("rigid.toml"), "--rung", "fe-dry:dt"}, 3); // refused
-    EXPECT_NE(out.find("young_modulus"), std::string::npos);
+    for (const char* part : {"rigid.toml: error: --rung fe-dry:dt is refused", "young_modulus", "expected:", "fix:"})
+        run({path("rigid.toml"), "--rung", "fe-dry:dt"}, 3, part);
 }
 
 TEST_F(AccuracyInput, WritesReportTableFigureAndTheScenesOfItsRungs)
