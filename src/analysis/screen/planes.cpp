@@ -142,7 +142,8 @@ void add_seam_warnings(const Scene& scene, const PlaneRow& row, const sliding::S
                              to_lock / units::degree));
     }
     const PlaneSlip* worst = row.worst();
-    if (worst && scene.planes.geometry == PlaneGeometry::small && worst->slide.max_slip > plane.valid_slip)
+    if (worst && scene.planes.geometry == PlaneGeometry::small &&
+        reported(worst->slide.status, worst->slide.max_slip).value_or(0.0) > plane.valid_slip)
         warn(fmt::format("it slides {:.3g} m, beyond the {:.3g} m at which the rock that crosses the kink has changed a_y by "
                          "5 %; write  planes.geometry = \"linear\".",
                          worst->slide.max_slip, plane.valid_slip));
@@ -170,10 +171,9 @@ void add_work(const Scene& scene, Sliding& s, const std::vector<sliding::Skippin
                             plane.wedge_back < std::max(motion.whole().h_max, -motion.whole().h_min));
             if (!worst || work.slide.slide.max_slip > worst->slide.slide.max_slip) worst = std::move(work);
         }
-    if (pulls) {
-        s.row.stands = false;
-        warn("while it slides a block would have to pull on its plane or on the next block: no PASS rests on it.");
-    }
+    if (pulls)
+        warn("as it slows down the dam would pull on its wedge or a block on its plane: the wedge would run ahead there, which "
+             "is not followed.");
     if (back) warn("its wedge would slide back into the gap that the dam leaves; that is not followed.");
     if (worst && worst->slide.slide.max_slip > 0.0) planes.works.push_back(std::move(*worst));
 }
