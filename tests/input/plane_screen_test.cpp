@@ -165,9 +165,11 @@ TEST(KeyedBase, IsAChain)
     const auto seam = nlohmann::json::parse(answer.out)["seams"][0];
     const double factor = seam["factor"], alpha = seam["alpha_deg"].get<double>() * 3.14159265358979323846 / 180.0;
     const double water = 9810.0, depth = 2.0, base = 24.0, length = depth / std::sin(alpha), all = base + length;
-    const auto head = [&](double s) { return 28.0 * (1.0 - s / all); };
-    const double at_kink = head(base) + depth;
-    const double u1 = 0.5 * water * base * (30.0 + at_kink), u2 = 0.5 * water * length * at_kink;
+    // Drains 3 m from the heel, E 0.7: the head there is 0.3 of the linear one, and linear on to the exit.
+    const double drain = 3.0, at_drain = 0.3 * 28.0 * (1.0 - drain / all);
+    const double at_kink = at_drain * length / (all - drain) + depth;
+    const double u1 = 0.5 * water * (drain * (30.0 + at_drain + depth) + (base - drain) * (at_drain + depth + at_kink)),
+                 u2 = 0.5 * water * length * at_kink;
     const double w1 = 9.81 * (2400.0 * 0.5 * 30.0 * (4.0 + 24.0) + 2600.0 * base * depth);
     const double w2 = 9.81 * 2600.0 * 0.5 * depth * depth / std::tan(alpha);
     const double phi = std::atan(std::tan(40.0 * 3.14159265358979323846 / 180.0) / factor);

@@ -39,21 +39,24 @@ TEST(LiftModes, AStiffDamMovesAsTheGround)
 {
     Scene scene = dam_with_lifts();
     scene.foundation.reset();
-    scene.dam.young_modulus = 25e9 * 1e5;
+    scene.dam.young_modulus = 25e9 * 400.0; // twenty times its frequencies
     const LiftModes modes = lift_modes(scene);
     ASSERT_EQ(modes.parts.size(), 3u);
-    const GroundMotion ground = growing_chirp(3.0);
+    GroundMotion ground = growing_chirp(3.0);
+    ground.accel_h.resize(300);
+    constexpr std::size_t parts = 400; // of an interval: the highest mode has 2 kHz
     for (const sliding::TiedPart& part : modes.parts) {
-        const sliding::JointMotions moved = sliding::joint_motions(ground, part, 1, 0.0);
+        ASSERT_LT(part.modes.back().frequency, 5e3);
+        const sliding::JointMotions moved = sliding::joint_motions(ground, part, int(parts), 0.0);
         for (std::size_t i = 0; i < ground.accel_h.size(); ++i) {
-            EXPECT_NEAR(moved.joint.accel_h[i], ground.accel_h[i], 2e-2);
-            EXPECT_NEAR(moved.mean.accel_h[i], ground.accel_h[i], 2e-2);
-            EXPECT_NEAR(moved.joint.accel_v[i], 0.0, 2e-2);
+            EXPECT_NEAR(moved.joint.accel_h[i * parts], ground.accel_h[i], 0.1);
+            EXPECT_NEAR(moved.mean.accel_h[i * parts], ground.accel_h[i], 0.1);
+            EXPECT_NEAR(moved.joint.accel_v[i * parts], 0.0, 0.1);
         }
     }
     for (const sliding::LiftAmplification& a : lift_amplification(modes, {sliding::SkippingMotion(ground)}, 0.05)) {
-        EXPECT_NEAR(a.mean, 1.0, 0.02);
-        EXPECT_NEAR(a.arm, 1.0, 0.02);
+        EXPECT_NEAR(a.mean, 1.0, 0.03);
+        EXPECT_NEAR(a.arm, 1.0, 0.03);
     }
 }
 
@@ -74,7 +77,8 @@ TEST(LiftModes, SharesMakeTheRigidDam)
         EXPECT_GT(part.joint.h_of_h.of_mode.front(), below); // the first mode grows upward
         EXPECT_GT(part.mean.h_of_h.of_mode.front(), part.joint.h_of_h.of_mode.front());
         below = part.joint.h_of_h.of_mode.front();
-        EXPECT_NEAR(part.modes.front().ratio, 0.05, 0.01); // Rayleigh, less what the water is not damped
+        EXPECT_LT(part.modes.front().ratio, 0.05); // Rayleigh's, less its part of the water, which is not damped
+        EXPECT_GT(part.modes.front().ratio, 0.03);
     }
 }
 
