@@ -9,10 +9,6 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-double dot(Point a, Point b)
-{
-    return a.x * b.x + a.y * b.y;
-}
 Point scaled(double factor, Point a)
 {
     return {factor * a.x, factor * a.y};

@@ -15,6 +15,11 @@
 /// dips downstream. Interface j lies between block j and block j + 1.
 namespace damslip::sliding {
 
+inline double dot(Point a, Point b)
+{
+    return a.x * b.x + a.y * b.y;
+}
+
 /// One block on its segment.
 struct ChainBlock {
     double dip = 0.0;           ///< θ [rad]

@@ -77,6 +77,17 @@ MovedPart moved_part(const Scene& scene, const Scene& part, double elevation, co
     return moved;
 }
 
+/// By the modes: all of it alike, at their arm.
+void amplify(const LiftAmplification& by, MovedPart& moved)
+{
+    moved.mass *= by.mean;
+    moved.centre.y *= by.arm;
+    AddedMassIntegral& w = moved.water;
+    for (double* part : {&w.xx, &w.xy, &w.yy}) *part *= by.mean;
+    for (Point* moment : {&w.horizontal_moment, &w.vertical_moment})
+        *moment = {moment->x * by.mean * by.arm, moment->y * by.mean * by.arm};
+}
+
 /// Tangent of the angle of a face from the vertical, at the joint.
 double tangent(const Polyline& face)
 {
@@ -189,7 +200,8 @@ double amplification_at(const Scene& scene, double elevation)
     return points.back().y;
 }
 
-std::vector<LiftPlane> lift_planes(const Scene& scene, const std::vector<GroundState>& states)
+std::vector<LiftPlane> lift_planes(const Scene& scene, const std::vector<GroundState>& states,
+                                   std::span<const LiftAmplification> modes)
 {
     const bool uniform = !scene.lifts || scene.lifts->amplification == Amplification::constant ||
                          scene.lifts->amplification == Amplification::modes;
@@ -206,7 +218,8 @@ std::vector<LiftPlane> lift_planes(const Scene& scene, const std::vector<GroundS
         const double uplift_share = made && scene.lifts->uplift != LiftUplift::none ? scene.lifts->uplift_share : 1.0;
         plane.length = base_length(part.section);
         const MovedPart alone = moved_part(scene, part, elevation, nullptr);
-        const MovedPart moved = uniform ? alone : moved_part(scene, part, elevation, share);
+        MovedPart moved = uniform ? alone : moved_part(scene, part, elevation, share);
+        if (!modes.empty()) amplify(modes[planes.size()], moved);
         for (const GroundState& state : states)
             plane.states.push_back(lift_state(part, plane.joint, moved, uplift_share,
                                               crack_rule(scene, state.a_h != 0.0 || state.a_v != 0.0), state));
@@ -221,7 +234,7 @@ std::vector<LiftPlane> lift_planes(const Scene& scene, const std::vector<GroundS
         block.added_mass = {alone.water.xx, alone.water.xy, alone.water.yy};
         plane.stages = strength_stages(block, plane.joint.strength);
         plane.yield = yield_acceleration(plane.stages.front().block);
-        plane.joint_amplification = amplification_at(scene, elevation);
+        plane.joint_amplification = modes.empty() ? amplification_at(scene, elevation) : modes[planes.size()].joint;
         plane.mean_amplification = (moved.mass + moved.water.xx) / (alone.mass + alone.water.xx);
         plane.yield_of_ground = plane.yield / plane.mean_amplification;
         planes.push_back(std::move(plane));

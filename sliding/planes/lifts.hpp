@@ -3,6 +3,7 @@
 #include "sliding/equilibrium/base_state.hpp"
 #include "sliding/planes/seam.hpp"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,8 @@ LiftJoint lift_at(const Scene& scene, double elevation);
 /// scene_above() a joint that [lifts] makes, with its water. @pre scene.lifts
 Scene scene_above_made_lift(const Scene& scene, const LiftJoint& joint);
 
-/// Ratio of the acceleration at a height to that of the ground, A(y), by lifts.amplification; `modes`: 1, for the caller has
-/// the modes [-].
+/// Ratio of the acceleration at a height to that of the ground, A(y), by lifts.amplification; `modes`: 1, it is no function of
+/// the height alone [-].
 double amplification_at(const Scene& scene, double elevation);
 
 /// Joint of [lifts] or [[lift_joint]] in one ground state.
@@ -42,7 +43,16 @@ struct LiftPlane {
     SlipStages stages; ///< for slide() under the ground's motion times mean_amplification
 };
 
+/// Peaks over the peak of the ground by the modes of the dam.
+struct LiftAmplification {
+    double joint = 1.0; ///< at the joint [-]
+    double mean = 1.0;  ///< Ā of the part above: force through the joint [-]
+    double arm = 1.0;   ///< of that force above the joint, over the arm in a dam that moves with the ground [-]
+};
+
 /// @param states  the first is the static one
-std::vector<LiftPlane> lift_planes(const Scene& scene, const std::vector<GroundState>& states);
+/// @param modes  of each lift, for lifts.amplification = "modes"; empty: 1
+std::vector<LiftPlane> lift_planes(const Scene& scene, const std::vector<GroundState>& states,
+                                   std::span<const LiftAmplification> modes = {});
 
 } // namespace damslip::sliding

@@ -202,8 +202,26 @@ const char* word(ChainStatus status)
     return "";
 }
 
-SeamModel seam_model(const Scene& scene, const Seam& seam, std::optional<double> angle, const SeamState& state,
-                     std::optional<InterfaceModel> interface)
+namespace {
+
+/// The dam on the rock, whatever the path.
+struct DamOnRock {
+    std::vector<Force> loads; ///< static, without its weight
+    double mass = 0.0;
+    Point centre;
+    AddedMassIntegral water;
+
+    explicit DamOnRock(const Scene& scene)
+        : mass(dam_mass(scene)), centre(centroid(scene.section)),
+          water(scene_added_mass(scene, scene.reservoir ? std::optional(scene.reservoir->level) : std::nullopt))
+    {
+        for (const Load& l : static_loads(scene, scene_load_case(scene)))
+            if (l.kind != LoadKind::weight && l.kind != LoadKind::anchor) loads.push_back(l.force.total());
+    }
+};
+
+SeamModel model_of(const Scene& scene, const DamOnRock& on_rock, const Seam& seam, std::optional<double> angle,
+                   const SeamState& state = {}, std::optional<InterfaceModel> interface = std::nullopt)
 {
     if (!scene.foundation || !(scene.foundation->material.density > 0.0))
         refuse(seam, "the rock above it has no density.", "foundation.density_kg_m3", "add  density_kg_m3 = 2650  to [foundation]");
@@ -272,17 +290,12 @@ SeamModel seam_model(const Scene& scene, const Seam& seam, std::optional<double>
             load += hydrostatic_load({exit, tops.back()}, DamSide::left, ends.exit, unit_weight).total();
         if (tops[i].x <= first.x && tops[i + 1].x >= last.x) {
             dam = i;
-            for (const Load& l : static_loads(scene, scene_load_case(scene)))
-                if (l.kind != LoadKind::weight && l.kind != LoadKind::anchor) load += l.force.total();
-            const double dam_weight = dam_mass(scene);
-            const Point own = centroid(scene.section);
-            block.mass += dam_weight;
-            centre = {(rock_mass * centre.x + dam_weight * own.x) / block.mass,
-                      (rock_mass * centre.y + dam_weight * own.y) / block.mass};
-            const AddedMassIntegral water =
-                scene_added_mass(scene, scene.reservoir ? std::optional(scene.reservoir->level) : std::nullopt);
-            block.added_mass = {water.xx, water.xy, water.yy};
-            model.water_per_a_h = hydrodynamic_force(water, -1.0, 0.0).total();
+            for (const Force& own : on_rock.loads) load += own;
+            block.mass += on_rock.mass;
+            centre = {(rock_mass * centre.x + on_rock.mass * on_rock.centre.x) / block.mass,
+                      (rock_mass * centre.y + on_rock.mass * on_rock.centre.y) / block.mass};
+            block.added_mass = {on_rock.water.xx, on_rock.water.xy, on_rock.water.yy};
+            model.water_per_a_h = hydrodynamic_force(on_rock.water, -1.0, 0.0).total();
         }
         block.force = {load.x, load.y};
         load += force_at(centre, 0.0, -block.mass * scene.gravity);
@@ -312,6 +325,14 @@ SeamModel seam_model(const Scene& scene, const Seam& seam, std::optional<double>
                "kinks whose faces reach the ground outside of heel and toe", "move the kink, or give seam.interface.angle_deg");
     model.chain.dam = *dam;
     return model;
+}
+
+} // namespace
+
+SeamModel seam_model(const Scene& scene, const Seam& seam, std::optional<double> angle, const SeamState& state,
+                     std::optional<InterfaceModel> interface)
+{
+    return model_of(scene, DamOnRock(scene), seam, angle, state, interface);
 }
 
 ChainStatus chain_status(const Chain& chain, const ChainLaw& law, double a_h, double a_v, double over)
@@ -402,13 +423,14 @@ ChainStatus status_at(const Chain& chain, double factor, const GroundState& stat
 
 struct Search {
     const Scene& scene;
+    const DamOnRock& on_rock;
     const Seam& seam;
     const std::vector<GroundState>& states;
 
     WedgeTrial tried(double angle) const
     {
         WedgeTrial trial{angle, {}, {}, unbounded, ChainStatus::locked};
-        const Chain chain = seam_model(scene, seam, angle).chain;
+        const Chain chain = model_of(scene, on_rock, seam, angle).chain;
         for (const GroundState& state : states) {
             trial.factors.push_back(chain_factor(chain, state.a_h, state.a_v));
             trial.statuses.push_back(status_at(chain, trial.factors.back(), state));
@@ -436,7 +458,8 @@ SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<Gro
 {
     SeamPlane plane;
     plane.name = seam.name;
-    const Search search{scene, seam, states};
+    const DamOnRock on_rock(scene);
+    const Search search{scene, on_rock, seam, states};
     std::vector<std::optional<double>> angles(states.size() + 1); // of each F, then of the yield
     if (seam.wedge && seam.exit == SeamExit::wedge) {
         for (const double angle : angles_of(*seam.wedge)) plane.trials.push_back(search.tried(angle));
@@ -472,30 +495,31 @@ SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<Gro
         SeamFactor factor;
         factor.angle = angles[k];
         const auto by = [&](std::optional<double> angle, InterfaceModel kind) {
-            return chain_factor(seam_model(scene, seam, angle, {}, kind).chain, states[k].a_h, states[k].a_v);
+            return chain_factor(model_of(scene, on_rock, seam, angle, {}, kind).chain, states[k].a_h, states[k].a_v);
         };
         factor.smooth = by(factor.angle, InterfaceModel::smooth);
         factor.friction = by(factor.angle, InterfaceModel::friction);
         factor.factor = seam.interface.model == InterfaceModel::smooth ? factor.smooth : factor.friction;
-        factor.status = status_at(seam_model(scene, seam, factor.angle).chain, factor.factor, states[k]);
+        factor.status = status_at(model_of(scene, on_rock, seam, factor.angle).chain, factor.factor, states[k]);
         factor.without_wedge = bare ? by(std::nullopt, seam.interface.model) : factor.factor;
         plane.factors.push_back(factor);
     }
 
-    plane.model = seam_model(scene, seam, plane.angle);
+    plane.model = model_of(scene, on_rock, seam, plane.angle);
     const Chain& chain = plane.model.chain;
     const ChainLaw law = chain_law(chain);
     plane.yield = law.yield();
     plane.status = chain_status(chain, law, plane.yield, 0.0);
-    const auto excess = [&](double friction) {
-        SeamState state;
-        state.friction = friction;
-        return chain_factor(seam_model(scene, seam, angles[0], state).chain) - 1.0;
+    // F = 1 where the yield is zero.
+    const std::size_t of_seam = chain.blocks.size() - (plane.angle ? 1 : 0);
+    auto excess = [&, held = chain](double friction) mutable {
+        for (std::size_t i = 0; i < of_seam; ++i) held.blocks[i].friction = friction;
+        return chain_law(held).yield();
     };
     double high = 1.0;
     while (high < 1e3 && excess(high) < 0.0) high *= 2.0;
     plane.holding_friction = excess(0.0) >= 0.0 ? 0.0 : excess(high) < 0.0 ? unbounded : bracketed_root(excess, 0.0, high);
-    plane.valid_slip = plane.yield_upstream = unbounded;
+    plane.valid_slip = unbounded;
     if (plane.status == ChainStatus::locked) {
         plane.stages = seam_stages(scene, seam, plane.angle, 0.0);
         return plane;
@@ -509,69 +533,81 @@ SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<Gro
         plane.growth = yield_growth(chain, scene.foundation->material.density);
         if (plane.growth != 0.0) plane.valid_slip = 0.05 * std::abs(plane.yield / plane.growth);
     }
-    if (chain.dam == 0) {
-        Chain body = chain;
-        body.blocks.resize(1);
-        body.interfaces.clear();
-        RigidBlock alone;
-        alone.mass = body.blocks[0].mass;
-        alone.added_mass = body.blocks[0].added_mass;
-        alone.gravity = chain.gravity;
-        alone.horizontal_force = body.blocks[0].force.x;
-        alone.vertical_force = -body.blocks[0].force.y;
-        alone.uplift = body.blocks[0].uplift;
-        alone.friction = body.blocks[0].friction;
-        alone.cohesion_force = body.blocks[0].cohesion * body.blocks[0].length;
-        alone.base_inclination = body.blocks[0].dip;
-        plane.yield_upstream = yield_upstream(alone).law.constant;
-        plane.impact = chain_law(body).mass / law.mass;
+    plane.bodies = seam_bodies(scene, seam, plane.angle);
+    if (!plane.bodies.empty()) {
+        const SeamStage& first = plane.bodies.front();
+        plane.upstream = yield_upstream_alone(first.body);
+        plane.impact = chain_law(first.body).mass / chain_law(first.chain).mass;
+        if (!chain.interfaces.empty()) {
+            Chain wedge{{chain.blocks[1]}, {}, chain.gravity, 0};
+            const ChainInterface& face = chain.interfaces[0];
+            wedge.blocks[0].force.x += face.water * std::sin(face.angle);
+            wedge.blocks[0].force.y -= face.water * std::cos(face.angle);
+            plane.wedge_back = yield_upstream_alone(wedge).law.constant;
+        }
     }
     plane.stages =
         seam_stages(scene, seam, plane.angle, scene.planes.geometry == PlaneGeometry::linear ? plane.growth : 0.0);
     return plane;
 }
 
-SlipStages seam_stages(const Scene& scene, const Seam& seam, std::optional<double> angle, double growth)
+namespace {
+
+/// From a slip on.
+struct Piece {
+    double from = 0.0, friction = 0.0, slope = 0.0; ///< slope of the friction [1/m]
+    bool bonded = true;
+    SeamState state = {};
+};
+
+/// Slips at which something changes, and what holds from there on.
+std::vector<Piece> pieces_of(const Scene& scene, const Seam& seam)
 {
-    // Slips at which something changes, and the friction from there on.
-    struct Piece {
-        double from = 0.0, friction = 0.0;
-        bool bonded = true;
-    };
     const FrictionOverSlip law(seam.strength);
-    std::vector<double> at;
     std::vector<Piece> pieces;
     const std::vector<FrictionOverSlip::Piece> given = law.pieces();
     const bool loses = seam.strength.cohesion > 0.0 && seam.strength.cohesion_lost_at_slip;
-    if (loses) pieces.push_back({0.0, law.peak(), true});
+    if (loses) pieces.push_back({0.0, law.peak(), 0.0, true});
     constexpr int parts = 16; // of a slope: the law of a chain is not linear in friction
     for (std::size_t i = 0; i < given.size(); ++i) {
-        const int count = given[i].slope != 0.0 && i + 1 < given.size() ? parts : 1;
+        const bool slopes = given[i].slope != 0.0 && i + 1 < given.size();
+        const int count = slopes ? parts : 1;
         const double length = i + 1 < given.size() ? given[i + 1].from_slip - given[i].from_slip : 0.0;
         for (int k = 0; k < count; ++k) {
             const double from = given[i].from_slip + length * k / count;
-            pieces.push_back({from, given[i].friction + given[i].slope * (from - given[i].from_slip), !loses});
+            pieces.push_back({from, given[i].friction + given[i].slope * (from - given[i].from_slip),
+                              slopes ? given[i].slope : 0.0, !loses});
         }
     }
     const auto split = [&](std::optional<double> slip) {
         if (!slip) return;
         const auto next = std::find_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return p.from > *slip; });
         const auto last = std::prev(next);
-        if (last->from != *slip || *slip == 0.0) pieces.insert(next, {*slip, law.at(*slip), last->bonded && (*slip == 0.0 || !loses)});
+        if (last->from != *slip || *slip == 0.0)
+            pieces.insert(next, {*slip, law.at(*slip), last->slope, last->bonded && (*slip == 0.0 || !loses)});
     };
     const std::optional<double> drains_lost = scene.drains ? scene.drains->lost_at_slip : std::nullopt;
     split(drains_lost);
     split(seam.dilation_slip);
+    for (Piece& piece : pieces) {
+        const bool moved = &piece != &pieces.front(); // a later stage from the same slip holds from the first movement on
+        piece.state.friction = piece.friction;
+        piece.state.bonded = piece.bonded;
+        piece.state.dilates = !(seam.dilation_slip && moved && piece.from >= *seam.dilation_slip);
+        if (drains_lost && moved && piece.from >= *drains_lost) piece.state.drains = DrainState::ineffective;
+    }
+    return pieces;
+}
 
+} // namespace
+
+SlipStages seam_stages(const Scene& scene, const Seam& seam, std::optional<double> angle, double growth)
+{
     SlipStages stages;
-    for (const Piece& piece : pieces) {
-        SeamState state;
-        state.friction = piece.friction;
-        state.bonded = piece.bonded;
-        const bool moved = !stages.empty(); // a later stage from the same slip holds from the first movement on
-        state.dilates = !(seam.dilation_slip && moved && piece.from >= *seam.dilation_slip);
-        if (drains_lost && moved && piece.from >= *drains_lost) state.drains = DrainState::ineffective;
-        const Chain chain = seam_model(scene, seam, angle, state).chain;
+    const std::vector<FrictionOverSlip::Piece> given = FrictionOverSlip(seam.strength).pieces();
+    const DamOnRock on_rock(scene);
+    for (const Piece& piece : pieces_of(scene, seam)) {
+        const Chain chain = model_of(scene, on_rock, seam, angle, piece.state).chain;
         SlipStage stage;
         stage.from_slip = piece.from;
         stage.block = chain_block(chain, chain_law(chain));
@@ -598,6 +634,23 @@ SlipStages seam_stages(const Scene& scene, const Seam& seam, std::optional<doubl
         end.from_slip += reach;
         end.friction_slope = 0.0;
         stages.push_back(end);
+    }
+    return stages;
+}
+
+std::vector<SeamStage> seam_bodies(const Scene& scene, const Seam& seam, std::optional<double> angle)
+{
+    std::vector<SeamStage> stages;
+    const DamOnRock on_rock(scene);
+    const std::vector<Piece> pieces = pieces_of(scene, seam);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        SeamState state = pieces[i].state;
+        if (pieces[i].slope != 0.0 && i + 1 < pieces.size()) // the mean
+            state.friction = pieces[i].friction + 0.5 * pieces[i].slope * (pieces[i + 1].from - pieces[i].from);
+        const Chain chain = model_of(scene, on_rock, seam, angle, state).chain;
+        const Chain body = angle ? model_of(scene, on_rock, seam, std::nullopt, state).chain : chain;
+        if (body.blocks.size() != 1 || chain.blocks.size() > 2 || chain_law(chain).locked || chain_law(body).locked) return {};
+        stages.push_back({pieces[i].from, chain, body});
     }
     return stages;
 }

@@ -6,6 +6,7 @@
 #include "scene/water.hpp"
 #include "sliding/loads/static_loads.hpp"
 #include "sliding/planes/chain.hpp"
+#include "sliding/planes/seam_motion.hpp"
 
 #include <optional>
 #include <string>
@@ -86,9 +87,11 @@ struct SeamPlane {
     ChainStatus status = ChainStatus::stands; ///< at the yield
     SeamModel model;                          ///< at `angle`
     double yield = 0.0, yield_per_a_v = 0.0;  ///< a_y [m/s^2], da_y/da_v [-]
-    double yield_upstream = 0.0; ///< of the body alone, which leaves the wedge [m/s^2]; infinite: it has more than one segment
+    /// Of the body alone, which leaves the wedge; infinite: it has more than one segment.
+    Yield upstream{{std::numeric_limits<double>::infinity(), 0.0}, 0.0};
+    double wedge_back = std::numeric_limits<double>::infinity(); ///< upstream yield of the wedge before a gap [m/s^2]
     double slip_factor = 1.0;    ///< H/M* [-]
-    double holding_friction = 0.0; ///< μ of the seam at which the static F is 1 [-]
+    double holding_friction = 0.0; ///< μ of the seam at which the static F is 1, at `angle` [-]
     double growth = 0.0;           ///< κ: of a_y over the slip, by the rock that crosses the interfaces [1/s^2]
     double valid_slip = 0.0;       ///< slip at which κ changes a_y by 5 % [m]; infinite without wedge
     double impact = 1.0;           ///< rate after over rate before, when the body meets the wedge again [-]
@@ -96,14 +99,19 @@ struct SeamPlane {
     std::vector<double> resultants; ///< distance of N from the upstream end of each segment over its length [-]; beyond 0 ... 1: tips
     std::vector<double> shares;     ///< of the resistance: segments, then interfaces [-]
     SlipStages stages;              ///< for slide(), downstream only
+    std::vector<SeamStage> bodies;  ///< for slide_seam(), both ways; empty: downstream only
 };
 
-/// @param states  the first is the static one
+/// @param states  the first is the static one; none: factors are not asked for
 /// @throws InputError for a seam whose blocks cannot be made (messages of check.hpp come first)
 SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<GroundState>& states);
 
 /// Stages of a seam over its slip: cohesion lost, friction over the slip, drains sheared off, dilation at its end; with
 /// planes.geometry = "linear" the yield grows by `growth` with the slip.
 SlipStages seam_stages(const Scene& scene, const Seam& seam, std::optional<double> angle, double growth);
+
+/// The same for slide_seam(): friction that slopes by its mean over sixteenths, no growth of the yield. Empty where the body is
+/// more than one block, or more than a wedge lies before it.
+std::vector<SeamStage> seam_bodies(const Scene& scene, const Seam& seam, std::optional<double> angle);
 
 } // namespace damslip::sliding

@@ -27,8 +27,9 @@ std::string point_text(Point p)
     return fmt::format("({:.6g}, {:.6g})", p.x, p.y);
 }
 
-void check_lift_choices(const Lifts& l, Findings& f)
+void check_lift_choices(const Scene& s, Findings& f)
 {
+    const Lifts& l = *s.lifts;
     const auto needs = [&f](bool wrong, const char* key, const char* problem, const char* fix) {
         if (wrong) f.wrong(std::string("lifts.") + key, problem, "the keys of [lifts] together", fix);
     };
@@ -74,6 +75,14 @@ void check_lift_choices(const Lifts& l, Findings& f)
         needs(!power && f.given(fmt::format("lifts.{}", key)), key,
               "a key of lifts.amplification = \"power\" is given, but the amplification is another.",
               "write  amplification = \"power\"  or delete the line");
+    if (l.amplification == Amplification::modes) {
+        needs(!s.dam.young_modulus, "amplification", "lifts.amplification = \"modes\" without dam.young_modulus_GPa.",
+              "add  young_modulus_GPa = 25  to [dam]");
+        needs(s.motion.records.empty(), "amplification", "lifts.amplification = \"modes\" without a record.",
+              "add a [[motion.record]], or write  amplification = \"power\"");
+        needs(!s.motion.sequence.empty(), "amplification", "lifts.amplification = \"modes\" with motion.sequence.",
+              "delete motion.sequence, or write  amplification = \"power\"");
+    }
     for (std::size_t i = 1; i < l.points.size(); ++i)
         if (l.points[i].x <= l.points[i - 1].x)
             return f.wrong("lifts.amplification_points",
@@ -348,7 +357,7 @@ void check_planes(const Scene& s, Findings& f)
 {
     if (s.lifts) {
         check_strength(s.lifts->strength, "lifts", f);
-        check_lift_choices(*s.lifts, f);
+        check_lift_choices(s, f);
         check_lift_places(s, f);
     }
     if (s.foundation) check_ground_line(s, f);

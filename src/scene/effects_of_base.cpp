@@ -19,6 +19,8 @@ Decision of_finite_elements(Method method, bool on, std::string yes, std::string
 
 Decision decide_damping(const Scene& s, Method method)
 {
+    if (method == Method::rigid_block && s.lifts && s.lifts->amplification == Amplification::modes)
+        return {true, "lifts.amplification = \"modes\"", "none"};
     return of_finite_elements(method, s.damping.method != DampingMethod::none, "damping.method",
                               "damping.method = \"none\"", "a matrix with the pattern of the stiffness");
 }

@@ -102,7 +102,10 @@ std::vector<EffectRow> plane_effects()
          .decide =
              [](const Scene& s, Method m) {
                  return of_planes(m, s.lifts->amplification != Amplification::constant, "lifts.amplification",
-                                  "lifts.amplification = \"constant\"", "one integral for each lift");
+                                  "lifts.amplification = \"constant\"",
+                                  s.lifts->amplification == Amplification::modes
+                                      ? "modes of the bonded dam once, four slides for each lift, record and polarity"
+                                      : "one integral for each lift");
              },
          .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
              s.lifts->amplification = Amplification::constant;

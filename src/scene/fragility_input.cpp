@@ -441,6 +441,14 @@ private:
                                    {"lift-off", LimitQuantity::lift_off},
                                    {"post-seismic-fs", LimitQuantity::post_seismic_fs}},
                                   limit.quantity);
+            if (const auto plane = text(entry, "limit", "plane")) limit.plane = *plane;
+            const bool of_base = limit.plane == "base";
+            if (!of_base && (limit.quantity == LimitQuantity::lift_off || limit.quantity == LimitQuantity::post_seismic_fs))
+                wrong(entry, fmt::format("limit on plane \"{}\" that is not of slip.", limit.plane),
+                      "slip or largest-slip: lifts and seams are rigid blocks", "delete plane");
+            if (!limits.empty() && limit.plane != limits.front().plane)
+                wrong(entry, fmt::format("limit on plane \"{}\" beside one on \"{}\".", limit.plane, limits.front().plane),
+                      "one plane, or any, for all limits of a file", "write two files");
             int given = 0;
             const bool factor = limit.quantity == LimitQuantity::post_seismic_fs;
             if (factor != entry.contains("below")) {
@@ -467,7 +475,8 @@ private:
                 double value = 0.0;
                 number(entry, "limit", key, value);
                 limit.value = value * si;
-                limit.text = fmt::format("{} > {} {}", name, value, unit);
+                limit.text = fmt::format("{} > {} {}{}{}", name, value, unit, of_base ? "" : " on ",
+                                         of_base ? "" : limit.plane == "any" ? "any plane" : limit.plane);
             }
             if (given != 1)
                 wrong(entry, fmt::format("limit has {} values.", given), "one of above_mm, above_cm, above_m",

@@ -99,7 +99,8 @@ enum class LimitQuantity { slip, largest_slip, lift_off, post_seismic_fs };
 struct LimitInput {
     LimitQuantity quantity = LimitQuantity::slip;
     double value = 0.0; ///< exceeded above it; of post_seismic_fs below it. SI
-    std::string text;   ///< "slip > 50 mm"
+    std::string text;           ///< "slip > 50 mm"
+    std::string plane = "base"; ///< that slides: a name, or "any", the one that slides furthest
 };
 
 /// [hazard]
@@ -118,7 +119,7 @@ struct FragilityInput {
     ProbabilityInput probability;
     std::optional<SuiteInput> suite;
     IntensityInput intensity;
-    std::vector<LimitInput> limits; ///< at least one
+    std::vector<LimitInput> limits; ///< at least one, all of one plane
     std::optional<HazardInput> hazard;
 };
 

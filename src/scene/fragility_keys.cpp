@@ -159,6 +159,10 @@ std::vector<FragilityKeyTable> make_tables()
                       {word_key("quantity", {"slip", "largest-slip", "lift-off", "post-seismic-fs"},
                                 "slip at the end, or largest on the way; of finite elements: largest opening of the "
                                 "base, sliding factor after the earthquake"),
+                       text_key("plane", Value::text, "base",
+                                "of a rigid block: the plane that slides, by name (a [[seam]], \"lift at 30 m\"), or any: the "
+                                "one that slides furthest; the same in all limits",
+                                "\"any\""),
                        number_key("below", positive, "", "of post-seismic-fs: too little below it", "1.1"),
                        number_key("above_mm", Range::at_least(0), "", "too much above it", "50"),
                        number_key("above_cm", Range::at_least(0), "", "the same in cm", "5"),

@@ -51,13 +51,15 @@ KeyGroup lifts_group(const std::vector<Key>& contact)
         number("uplift_share", none, Range::between(0, 1), "1", "share of the lift's area on which the pressure acts",
                "1", at(&L::uplift_share)),
         word("amplification", "constant",
-             "acceleration over the height as a share of the ground's, for factor and yield: constant (1), power (1 + "
-             "(crest_amplification - 1)(y/H)^exponent), points",
+             "acceleration over the height as a share of the ground's: constant (1), power (1 + (crest_amplification - "
+             "1)(y/H)^exponent), points, or modes: those of the dam on its bonded base, by each record's spectrum for factor "
+             "and yield, by each record itself for the slip",
              "\"power\"",
              choice(&L::amplification,
                     std::vector<std::pair<std::string, Amplification>>{{"constant", Amplification::constant},
                                                                        {"power", Amplification::power},
-                                                                       {"points", Amplification::points}})),
+                                                                       {"points", Amplification::points},
+                                                                       {"modes", Amplification::modes}})),
         only_where<L>([](const L& l) { return l.amplification == Amplification::power; },
                       number("crest_amplification", none, Range::between(0, 20), "required with amplification power",
                              "A_c, at the crest", "3", at(&L::crest_amplification))),
@@ -69,7 +71,8 @@ KeyGroup lifts_group(const std::vector<Key>& contact)
               at(&L::points)),
         word("active", "adaptive",
              "FE: lifts that may slide and open: those that come near their strength (adaptive: each is tied until its "
-             "tractions reach 0.8 of it anywhere, then the run begins anew with it), all, none",
+             "tractions reach 0.8 of it anywhere, then the run begins anew with it), all, none; `screen` judges every "
+             "lift",
              "\"all\"",
              choice(&L::active, std::vector<std::pair<std::string, ActiveLifts>>{{"adaptive", ActiveLifts::adaptive},
                                                                                  {"all", ActiveLifts::all},

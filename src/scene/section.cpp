@@ -193,11 +193,11 @@ void check_polygon(const Polyline& p, Findings& findings)
     for (std::size_t i = 2; i < n; ++i)
         if (cross(p[0], p[1], p[i]) <= 0)
             return wrong("has the vertex " + point_text(p[i]) + " on or below the base.",
-                         "the base is the edge from heel to toe; all other vertices lie above its line. A key or step "
-                         "below it is not "
-                         "modelled: take the plane through the underside of the key as base, the rock before it as "
-                         "[[force]] (passive "
-                         "wedge) and the concrete of the key as cohesion_kPa");
+                         fmt::format("the base is the edge from heel to toe; all other vertices lie above its line. A key or "
+                                     "step below it: leave it out of the polygon and write the plane through its underside as "
+                                     " [[seam]] depth_m = {:.4g}  with  [seam.wedge]  for the rock before it; see "
+                                     "examples/keyed_base.toml",
+                                     std::max(-cross(p[0], p[1], p[i]) / std::hypot(p[1].x, p[1].y), 0.1)));
 }
 
 Polyline polygon_by_dimensions(const SectionInput& in, Findings& findings)

@@ -44,6 +44,15 @@ bool says(const std::string& text, const std::string& part)
     return text.find(part) != std::string::npos;
 }
 
+TEST(PlaneInput, LiftsByModesNeedADamAndARecord)
+{
+    const std::string said = lifts_message("spacing_m = 3\namplification = \"modes\"\n");
+    EXPECT_TRUE(says(said, "without dam.young_modulus_GPa")) << said;
+    EXPECT_TRUE(says(said, "without a record")) << said;
+    EXPECT_TRUE(says(lifts_message("spacing_m = 3\namplification = \"modes\"\nexponent = 2\n"),
+                     "a key of lifts.amplification = \"power\" is given"));
+}
+
 TEST(PlaneInput, LiftsLieInsideTheSection)
 {
     EXPECT_EQ(lifts_message("elevations_m = [3, 61]\n"),

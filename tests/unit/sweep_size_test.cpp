@@ -39,6 +39,8 @@ young_modulus_GPa = 30
 width_m = @300@
 depth_m = @110@
 mass = "massless"
+density_kg_m3 = 2650
+ground_m = [[@-50@, 0], [@80@, @4@]]
 [curtain]
 distance_m = @7@
 depth_m = @30@
@@ -75,6 +77,32 @@ residual_slip_m = 0.02
 [[lift_joint]]
 elevation_m = @51.5@
 friction = 0.9
+[lifts]
+spacing_m = @6@
+from_m = @6@
+to_m = @48@
+friction = 0.8
+uplift = "drains"
+drains_distance_m = @3@
+gallery_level_m = @4@
+amplification = "points"
+amplification_points_m = [[0, 1], [@60@, 3]]
+[[seam]]
+name = "bent"
+points_m = [[0, @-6@], [@60@, @-9@]]
+friction = 0.6
+uplift = "points"
+uplift_points_m = [[0, 1], [@50@, 0.3]]
+[seam.wedge]
+friction = 0.8
+distance_m = @0@
+[[seam]]
+name = "straight"
+depth_m = @8@
+friction = 0.6
+[seam.wedge]
+friction = 0.8
+distance_m = @5@
 [[combination]]
 name = "flood"
 reservoir_level_m = @62@

@@ -1,6 +1,7 @@
 #include "scene/section.hpp"
 #include "sliding/block/slide.hpp"
 #include "sliding/block/yield.hpp"
+#include "sliding/planes/joint_motion.hpp"
 #include "sliding/planes/lifts.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/reference_scene.hpp"
@@ -406,6 +407,44 @@ Checks lift_checks()
     };
 }
 
+/// An undamped mode of 4 Hz, Γψ 1.2, under 2 m/s² for two of its periods: a_J = 2 - 2.4 cos ωt, then nothing; a_y 2.5 m/s².
+Checks slip_in_two_steps()
+{
+    constexpr double omega = 8.0 * std::numbers::pi, yield = 2.5, end = 0.5;
+    // Slip rate since it began at t: the block slides where it is positive.
+    const auto rate = [&](double from, double t) {
+        return (2.0 - yield) * (t - from) - 2.4 / omega * (std::sin(omega * t) - std::sin(omega * from));
+    };
+    const auto slip = [&](double from, double t) {
+        return 0.5 * (2.0 - yield) * (t - from) * (t - from) +
+               2.4 / omega * ((std::cos(omega * t) - std::cos(omega * from)) / omega + std::sin(omega * from) * (t - from));
+    };
+    double exact = 0.0, earliest = 0.0;
+    for (double from = std::acos(-0.5 / 2.4) / omega; from < end; from += 0.25) {
+        if (from < earliest) continue; // it slides
+        double low = from + 1e-3, high = end;
+        if (rate(from, end) > 0.0) {
+            exact += slip(from, end) + 0.5 * rate(from, end) * rate(from, end) / yield;
+            break;
+        }
+        for (int i = 0; i < 100; ++i) (rate(from, 0.5 * (low + high)) > 0.0 ? low : high) = 0.5 * (low + high);
+        exact += slip(from, low);
+        earliest = low;
+    }
+    const ModalShares none{{0.0}, 0.0};
+    const PlaceShares place{{{1.2}, -0.2}, none, none, none};
+    const TiedPart part{{{4.0, 0.0}}, place, place};
+    GroundMotion ground;
+    ground.dt = 0.005;
+    ground.accel_h.assign(101, 2.0);
+    const GroundMotion joint = joint_motions(ground, part, 500, 0.0).joint;
+    RigidBlock block;
+    block.mass = 1.0;
+    block.friction = yield / block.gravity;
+    return {{"slip", "mm", 1e3 * exact, 1e3 * slide(joint, block).max_slip, 1e-8},
+            {"slip, printed", "mm", 26.604686, 1e3 * slide(joint, block).max_slip, 1e-7}};
+}
+
 /// The base as a chain of one block against the rigid block, level and dipping.
 Checks base_as_chain()
 {
@@ -465,6 +504,9 @@ void add_plane_cases(Registry& registry)
                         "half a unit of the last printed digit", seam_and_wedge});
     registry.push_back({"sliding.planes.triangle", "Slip of a chain, whose H/M* is not 1, under a triangle.", "closed form",
                         "round-off", slip_under_triangle});
+    registry.push_back({"sliding.planes.two-steps", "Slip on a joint under its motion in a bonded dam of one undamped mode.",
+                        "closed form between start and stop", "linear between 50,000 steps: (ω h)²/12 = 5e-9",
+                        slip_in_two_steps});
     registry.push_back({"sliding.planes.lifts", "A lift joint: forces, stresses, crack, drains; a wall that amplifies.",
                         "beam theory with the whole reservoir's added mass; integrals of (y/H)^n",
                         "printed digits; the printed added mass is a sum cut off, 2e-8", lift_checks});

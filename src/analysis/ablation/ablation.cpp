@@ -1,5 +1,6 @@
 #include "analysis/ablation/ablation.hpp"
 
+#include "analysis/prepare/plane_model.hpp"
 #include "analysis/prepare/reservoir.hpp"
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
@@ -283,19 +284,29 @@ MotionOutcome outcome(const sliding::SlideResult& r, const RigidModel& model)
 SceneRuns run_rigid(const Ready& ready, const Watch& watch)
 {
     SceneRuns runs;
-    RigidModel model;
+    std::vector<RigidModel> models; // of all planes: what an effect of one is worth shows where that one governs
     runs.set_up_seconds = shortest_time([&] {
-        model = ready.with(ready.scene).rigid_model(); // seepage solved anew: what a run of this scene alone costs
+        models = all_models(ready.with(ready.scene)); // seepage solved anew: what a run of this scene alone costs
     });
-    runs.yield_acceleration = model.downstream.law.constant;
-    runs.critical_friction = model.critical_friction;
+    runs.yield_acceleration = models.front().downstream.law.constant;
+    runs.critical_friction = models.front().critical_friction;
+    for (const RigidModel& model : models) {
+        runs.yield_acceleration = std::min(*runs.yield_acceleration, model.downstream.law.constant / model.amplification);
+        runs.critical_friction = std::max(*runs.critical_friction, model.critical_friction);
+    }
     for (const RecordPair& pair : ready.records())
         for (const GroundMotion& motion : ready.motions(pair)) {
             MotionOutcome& of_motion = runs.motions.emplace_back();
             if (watch.stop_asked()) continue;
-            sliding::SlideResult result;
-            const double seconds = shortest_time([&] { result = slide_model(ready.scene, model, motion, 1); });
-            of_motion = outcome(result, model);
+            std::vector<sliding::SlideResult> results(models.size());
+            const double seconds = shortest_time([&] {
+                for (std::size_t i = 0; i < models.size(); ++i)
+                    results[i] = slide_model(ready.scene, models[i], motion, 1);
+            });
+            const auto worst = std::max_element(results.begin(), results.end(), [](const auto& a, const auto& b) {
+                return a.max_slip < b.max_slip;
+            });
+            of_motion = outcome(*worst, models[std::size_t(worst - results.begin())]);
             of_motion.seconds = seconds;
         }
     return runs;

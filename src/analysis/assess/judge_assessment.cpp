@@ -286,7 +286,9 @@ void judge_assessment(Assessment& a)
     judge_slip(a);
     a.slip_verdict = a.verdict;
     a.failed_checks = sliding::failed_checks(a.screening.combinations);
-    if (!a.failed_checks.empty()) a.verdict = Verdict::fail;
+    const Verdict of_planes = judge(a.screening.planes, a.ready.scene);
+    if (!a.failed_checks.empty() || of_planes == Verdict::fail) a.verdict = Verdict::fail;
+    if (of_planes == Verdict::undecided && a.verdict == Verdict::pass) a.verdict = Verdict::undecided;
 }
 
 int exit_code_of(const Assessment& a)

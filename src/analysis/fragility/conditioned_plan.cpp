@@ -538,6 +538,7 @@ void draw_cells(ConditionedPlan& to, const WithoutFriction& others, const std::v
 
 std::string why_not_conditioned(const FragilityInput& input)
 {
+    if (!input.limits.empty() && input.limits.front().plane != "base") return "the limits are of another plane than the base";
     const std::size_t place = friction_variable(input);
     if (place == input.probability.variables.size()) return "contact.friction is not drawn";
     const RandomVariable& v = input.probability.variables[place];

@@ -1,6 +1,7 @@
 #include "analysis/fragility/fragility_runs.hpp"
 
 #include "analysis/fe/contact_runs.hpp"
+#include "analysis/prepare/plane_model.hpp"
 #include "analysis/sweep/sweep_rows.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
@@ -41,10 +42,17 @@ private:
     Stopwatch time_;
 };
 
+/// What the statics of the base and the modes of the dam do not know: strengths, and seams.
+bool moves_no_statics(const std::string& key)
+{
+    return key == friction_key || key.starts_with("seam[") || key.starts_with("lifts.friction") ||
+           key.starts_with("lifts.residual") || key.starts_with("lifts.cohesion");
+}
+
 /// What a rigid block does not ask the seepage for.
 bool moves_no_water(const std::string& key)
 {
-    return key == friction_key || key.starts_with("contact.cohesion") || key.starts_with("contact.residual") ||
+    return moves_no_statics(key) || key.starts_with("contact.cohesion") || key.starts_with("contact.residual") ||
            key.starts_with("dam.") || key.starts_with("motion.") || key.starts_with("damping.");
 }
 
@@ -131,7 +139,7 @@ public:
         const std::lock_guard lock(mutex_);
         PrepareOptions options;
         options.seepage = seepage_.of(words_of(draw, moves_no_water));
-        options.statics = statics_.of(words_without_friction(draw));
+        options.statics = statics_.of(words_of(draw, moves_no_statics));
         return options;
     }
 
@@ -173,14 +181,34 @@ public:
         const FragilityDraw& draw = plan_.draws[plan_.samples[ids.front()].draw];
         const Ready ready =
             prepare(text_.with(draw.changes), Method::rigid_block, plan_.suite.pairs, shared_.options_of(draw));
-        const RigidModel model = ready.rigid_model();
-        yield = model.downstream.law.constant;
+        const std::vector<RigidModel> models = models_of(ready);
+        yield = models.front().downstream.law.constant;
         std::vector<FinishedRow> rows;
-        for (const std::size_t id : ids) rows.push_back(run_one(ready, model, id));
+        for (const std::size_t id : ids) {
+            rows.push_back(run_one(ready, models.front(), id));
+            for (std::size_t i = 1; i < models.size(); ++i)
+                if (FinishedRow other = run_one(ready, models[i], id); further(other, rows.back())) rows.back() = std::move(other);
+        }
         return rows;
     }
 
 private:
+    /// What may slide: the base, the plane of the limits, or all.
+    std::vector<RigidModel> models_of(const Ready& ready) const
+    {
+        const std::string& plane = plan_.input.limits.front().plane;
+        if (plane == base_plane) return {ready.rigid_model()};
+        if (plane == any_plane) return all_models(ready);
+        Scene scene = ready.scene;
+        scene.lift_joints = ready.given.lift_joints; // they replace lifts
+        return {plane_model(scene, plane, ready.statics.get())};
+    }
+    /// A plane that fails without an answer to give is the worst, then one without an answer, then the larger slip.
+    static bool further(const FinishedRow& a, const FinishedRow& b)
+    {
+        const auto rank = [](const FinishedRow& row) { return !row.good ? 1 : row.results.max_slip ? 0 : 2; };
+        return rank(a) != rank(b) ? rank(a) > rank(b) : a.results.max_slip > b.results.max_slip;
+    }
     static std::pair<std::size_t, std::size_t> key(const FragilitySample& s) { return {s.record, s.level}; }
     double factor_of(std::size_t record, std::size_t level) const
     {
@@ -541,6 +569,7 @@ SweepIdentity fragility_identity(const FragilityPlan& plan, const SceneText& tex
         words.add(fmt::format("{} {} {} {} {}\n", s.draw, s.level, s.record, s.polarity, s.factor));
     identity.grid = fmt::format("fragility by {}, {} draws, {} levels, plan {}", method, plan.draws.size(), plan.levels,
                                 words.finish());
+    if (const std::string& plane = plan.input.limits.front().plane; plane != base_plane) identity.grid += ", plane " + plane;
     identity.rows = plan.samples.size();
     return identity;
 }

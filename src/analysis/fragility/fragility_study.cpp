@@ -3,6 +3,7 @@
 #include "analysis/fragility/capacity_roots.hpp"
 #include "analysis/fragility/hazard_file.hpp"
 #include "analysis/fragility/shaking_suite.hpp"
+#include "analysis/prepare/plane_model.hpp"
 #include "analysis/prepare/reducible.hpp"
 #include "core/input_error.hpp"
 #include "scene/effect_plan.hpp"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace damslip {
 
@@ -40,8 +42,20 @@ const SweepMethod& method_of_fragility(const std::string& given, const Records& 
 }
 
 /// Limits that a run of the method gives.
-void check_limits(const FragilityInput& input, const SweepMethod& method, const std::filesystem::path& file)
+void check_limits(const FragilityInput& input, const Scene& scene, const SweepMethod& method, const std::filesystem::path& file)
 {
+    if (const std::string& plane = input.limits.front().plane; plane != base_plane) {
+        const std::vector<std::string> names = plane_names(scene);
+        const auto refuse = [&](const std::string& problem, const std::string& expected, const char* fix) {
+            throw InputError(Diagnostic{file.string(), 0, 0, problem, expected, fix});
+        };
+        if (method.kind != SweepKind::rigid && method.kind != SweepKind::rigid_vertical)
+            refuse(fmt::format("limit.plane = \"{}\" by {}.", plane, method.id), "rigid or rigid-v: lifts and seams are rigid blocks",
+                   "write  --method rigid-v , or delete plane");
+        if (plane != any_plane && std::find(names.begin(), names.end(), plane) == names.end())
+            refuse(fmt::format("limit.plane = \"{}\" names no plane of the scene.", plane),
+                   fmt::format("{}, any", fmt::join(names, ", ")), "take one of these");
+    }
     const bool full = method.kind == SweepKind::finite_elements && !method.reduced;
     for (const LimitInput& limit : input.limits) {
         if (is_of_slip(limit)) continue;
@@ -116,7 +130,7 @@ FragilityStudy open_fragility(SceneText text, Scene scene, FragilityInput input,
     check_fragility(input, text);
     ShakingSuite suite = suite_of_input(scene, input);
     const SweepMethod& of = method_of_fragility(method, suite.pairs, scene);
-    check_limits(input, of, text.file());
+    check_limits(input, scene, of, text.file());
     const NumberInFile written = [text](const std::string& key) { return text.written(key); };
     std::optional<probability::HazardCurve> hazard;
     if (input.hazard) hazard = hazard_of(input, scene, suite.notes);
@@ -210,7 +224,7 @@ FragilityAnswer answer_fragility(const FragilityStudy& study, const FragilityPla
             answer.causes = fragility_causes(plan, answer.estimate, study.text, study.written, study.rigid(),
                                              extras.rows, extras.jobs, watch);
         for (const LimitInput& limit : input.limits)
-            if (is_of_slip(limit))
+            if (is_of_slip(limit) && limit.plane == base_plane)
                 answer.needed_yields.emplace_back(limit, needed_yield(plan, study.text, limit.value));
     }
     for (const std::string& far : plan.scaled_far) answer.notes.push_back("scaled beyond suite.max_scale: " + far);

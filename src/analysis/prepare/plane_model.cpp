@@ -43,19 +43,65 @@ RigidModel plane_model(sliding::SlipStages stages, double length, double amplifi
     return model;
 }
 
-RigidModel plane_model(const Scene& scene, const std::string& name)
+void add_bodies(const Scene& scene, const sliding::SeamPlane& plane, RigidModel& model)
 {
-    for (const Seam& seam : scene.seams)
-        if (seam.name == name) {
-            sliding::SeamPlane plane = sliding::seam_plane(scene, seam, {{"static"}});
-            RigidModel model =
-                plane_model(std::move(plane.stages), plane.model.chain.blocks[plane.model.chain.dam].length, 1.0, true);
-            model.critical_friction = plane.holding_friction;
-            return model;
-        }
+    model.upstream = plane.upstream;
+    if (scene.planes.geometry == PlaneGeometry::small && !plane.bodies.empty())
+        model.bodies = std::make_shared<const std::vector<sliding::SeamStage>>(plane.bodies);
+}
+
+namespace {
+
+RigidModel model_of(const Scene& scene, const Seam& seam)
+{
+    sliding::SeamPlane plane = sliding::seam_plane(scene, seam, {});
+    RigidModel model =
+        plane_model(std::move(plane.stages), plane.model.chain.blocks[plane.model.chain.dam].length, 1.0, true);
+    model.critical_friction = plane.holding_friction;
+    add_bodies(scene, plane, model);
+    return model;
+}
+
+RigidModel model_of(const Scene& scene, sliding::LiftPlane& lift, KeptStatics& kept)
+{
+    RigidModel model = plane_model(std::move(lift.stages), lift.length, lift.mean_amplification, false);
+    if (!lifts_vibrate(scene)) return model;
+    const LiftModes& modes = kept.lifts.get([&] { return lift_modes(scene); });
+    model.tied = std::make_shared<const sliding::TiedPart>(modes.part(lift.elevation));
+    return model;
+}
+
+} // namespace
+
+std::vector<RigidModel> plane_models(const Scene& scene, KeptStatics* kept)
+{
+    std::vector<RigidModel> models;
+    KeptStatics own;
     if (scene.lifts)
         for (sliding::LiftPlane& lift : sliding::lift_planes(scene, {{"static"}}))
-            if (lift.name == name) return plane_model(std::move(lift.stages), lift.length, lift.mean_amplification, false);
+            models.push_back(model_of(scene, lift, kept ? *kept : own));
+    for (const Seam& seam : scene.seams) models.push_back(model_of(scene, seam));
+    return models;
+}
+
+std::vector<RigidModel> all_models(const Ready& ready)
+{
+    std::vector<RigidModel> models{ready.rigid_model()};
+    if (!ready.scene.lifts && ready.scene.seams.empty()) return models;
+    Scene scene = ready.scene;
+    scene.lift_joints = ready.given.lift_joints; // they replace lifts
+    for (RigidModel& model : plane_models(scene, ready.statics.get())) models.push_back(std::move(model));
+    return models;
+}
+
+RigidModel plane_model(const Scene& scene, const std::string& name, KeptStatics* kept)
+{
+    for (const Seam& seam : scene.seams)
+        if (seam.name == name) return model_of(scene, seam);
+    KeptStatics own;
+    if (scene.lifts)
+        for (sliding::LiftPlane& lift : sliding::lift_planes(scene, {{"static"}}))
+            if (lift.name == name) return model_of(scene, lift, kept ? *kept : own);
     const std::vector<std::string> names = plane_names(scene);
     const std::string_view near = nearest(name, names);
     refuse_usage(fmt::format("no plane is named \"{}\".", name), fmt::format("planes: {}", fmt::join(names, ", ")),

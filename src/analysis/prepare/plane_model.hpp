@@ -1,6 +1,8 @@
 #pragma once
 
+#include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/rigid_model.hpp"
+#include "sliding/planes/seam.hpp"
 
 #include <string>
 #include <vector>
@@ -9,6 +11,7 @@
 namespace damslip {
 
 inline constexpr const char* base_plane = "base";
+inline constexpr const char* any_plane = "any"; ///< the one that slides furthest
 
 /// "base", the lifts from the bottom up, the seams.
 std::vector<std::string> plane_names(const Scene& scene);
@@ -17,7 +20,17 @@ std::vector<std::string> plane_names(const Scene& scene);
 /// @param one_way  it is followed downstream only
 RigidModel plane_model(sliding::SlipStages stages, double length, double amplification, bool one_way);
 
-/// The rigid model of the plane that has this name. @throws UsageError where no plane of plane_names() has it
-RigidModel plane_model(const Scene& scene, const std::string& name);
+/// What a seam needs to slide both ways.
+void add_bodies(const Scene& scene, const sliding::SeamPlane& plane, RigidModel& model);
+
+/// Of all planes but the base, in the order of plane_names(). @param kept  as of make_rigid_model()
+std::vector<RigidModel> plane_models(const Scene& scene, KeptStatics* kept = nullptr);
+
+/// Whatever may slide: the base, then lifts and seams.
+std::vector<RigidModel> all_models(const Ready& ready);
+
+/// The rigid model of the plane that has this name. @param kept  as of make_rigid_model()
+/// @throws UsageError where no plane of plane_names() has it
+RigidModel plane_model(const Scene& scene, const std::string& name, KeptStatics* kept = nullptr);
 
 } // namespace damslip

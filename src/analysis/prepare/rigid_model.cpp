@@ -38,18 +38,11 @@ RigidModel make_wedge_model(const Scene& scene)
 
 } // namespace
 
-const RigidStatics& KeptStatics::get(const std::function<RigidStatics()>& find)
-{
-    const std::lock_guard lock(mutex_);
-    if (!found_) found_ = find();
-    return *found_;
-}
-
 RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& seepage, std::optional<CrackRule> crack,
                             KeptStatics* kept)
 {
     if (scene.wedge) return make_wedge_model(scene);
-    if (!scene.planes.slides_on.empty()) return plane_model(scene, scene.planes.slides_on);
+    if (!scene.planes.slides_on.empty()) return plane_model(scene, scene.planes.slides_on, kept);
     sliding::BlockOptions options;
     options.crack = crack;
     options.seepage = seepage;
@@ -67,7 +60,7 @@ RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& s
         return statics;
     };
     KeptStatics own;
-    const auto& [state, later, water] = (kept ? kept : &own)->get(find);
+    const auto& [state, later, water] = (kept ? kept : &own)->base.get(find);
     RigidModel model;
     RigidStages on_base = rigid_stages(scene, static_case, state, later ? &*later : nullptr, options);
     model.block = on_base.block;
@@ -110,7 +103,28 @@ GroundMotion amplified(GroundMotion motion, double by)
     return motion;
 }
 
+/// Does the ground push a seam's body away from its wedge?
+bool moves_back(const Scene& scene, const RigidModel& model, const sliding::AccelRange& range, int polarity)
+{
+    if (!model.bodies || !scene.sliding.two_way) return false;
+    const double back = polarity > 0 ? -range.h_min : range.h_max;
+    return back > std::min(model.upstream.law.at(range.v_min), model.upstream.law.at(range.v_max));
+}
+
+/// The slide of such a seam; none: it stays on its wedge, or does not stand.
+std::optional<sliding::SlideResult> both_ways(const Scene& scene, const RigidModel& model, const GroundMotion& motion,
+                                              const sliding::AccelRange& range, int polarity)
+{
+    if (motion.is_sequence() || model.state != sliding::StaticState::at_rest || !moves_back(scene, model, range, polarity)) return std::nullopt;
+    return slide_bodies(scene, model, motion, polarity).slide;
+}
+
 } // namespace
+
+sliding::SeamSlide slide_bodies(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity)
+{
+    return sliding::slide_seam(motion, *model.bodies, {scene.sliding, polarity});
+}
 
 void check_length(const RigidModel& model, sliding::SlideResult& result)
 {
@@ -165,10 +179,12 @@ sliding::RockingResult rock_model(const Scene& scene, const RigidModel& model, c
 sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const sliding::SkippingMotion& motion,
                                  int polarity, sliding::HistoryOutput history)
 {
-    if (model.wedge || model.amplification != 1.0) return slide_model(scene, model, motion.motion(), polarity, history);
+    if (model.wedge || model.moves_unlike_ground()) return slide_model(scene, model, motion.motion(), polarity, history);
     if (model.rests && motion.motion().is_sequence())
         return slide_model(scene, model, motion.motion(), polarity, history);
-    sliding::SlideResult result = sliding::slide(motion, model.stages, slide_options(scene, model, polarity, history));
+    std::optional<sliding::SlideResult> back = both_ways(scene, model, motion.motion(), motion.whole(), polarity);
+    sliding::SlideResult result =
+        back ? std::move(*back) : sliding::slide(motion, model.stages, slide_options(scene, model, polarity, history));
     check_length(model, result);
     check_tipping(model, polarity > 0 ? motion.whole().h_max : -motion.whole().h_min, result);
     return result;
@@ -179,7 +195,10 @@ std::vector<sliding::SlideResult> slide_models(const Scene& scene, std::span<con
 {
     std::vector<sliding::SlideResult> results;
     const RigidModel& first = *models.front();
-    if (first.wedge || !first.anchors.empty() || first.amplification != 1.0 || motion.motion().is_sequence()) {
+    const bool back = std::any_of(models.begin(), models.end(), [&](const RigidModel* model) {
+        return moves_back(scene, *model, motion.whole(), polarity);
+    });
+    if (first.wedge || !first.anchors.empty() || first.moves_unlike_ground() || back || motion.motion().is_sequence()) {
         for (const RigidModel* model : models)
             results.push_back(slide_model(scene, *model, motion, polarity, sliding::HistoryOutput::none));
         return results;
@@ -199,8 +218,16 @@ sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, co
                                  sliding::HistoryOutput history)
 {
     const sliding::SlideOptions options = slide_options(scene, model, polarity, history);
-    sliding::SlideResult result = model.wedge ? sliding::slide_wedge(motion, model.wedge->yields, options)
-                                              : sliding::slide(motion, model.stages, options, model.rests.get());
+    const auto block = [&] {
+        if (model.bodies) {
+            const sliding::SkippingMotion skipping(motion);
+            if (auto back = both_ways(scene, model, motion, skipping.whole(), polarity)) return std::move(*back);
+        }
+        if (model.tied) return sliding::slide_above(motion, *model.tied, model.stages, options);
+        if (model.amplification == 1.0) return sliding::slide(motion, model.stages, options, model.rests.get());
+        return sliding::slide(amplified(motion, model.amplification), model.stages, options, model.rests.get());
+    };
+    sliding::SlideResult result = model.wedge ? sliding::slide_wedge(motion, model.wedge->yields, options) : block();
     if (model.wedge && fails_statically(result.status)) result.status = sliding::status_of(model.state);
     check_length(model, result);
     const auto [least, most] = std::minmax_element(motion.accel_h.begin(), motion.accel_h.end());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/prepare/lift_modes.hpp"
 #include "analysis/prepare/records.hpp"
 #include "analysis/prepare/wedge_model.hpp"
 #include "scene/scene.hpp"
@@ -7,6 +8,7 @@
 #include "sliding/block/yield.hpp"
 #include "sliding/empirical/regression.hpp"
 #include "sliding/equilibrium/base_state.hpp"
+#include "sliding/planes/seam_motion.hpp"
 #include "sliding/rocking/rocking.hpp"
 
 #include <functional>
@@ -34,8 +36,13 @@ struct RigidModel {
     std::shared_ptr<const sliding::RestBetweenEvents> rests;
     std::optional<double> length; ///< of what it slides on [m]; none: a wedge whose surfaces are not given
     double amplification = 1.0;   ///< of the ground's motion where the block stands: of a lift [-]
-    bool one_way = false;         ///< followed downstream only, whatever sliding.two_way says
+    /// The vibrating dam below and around the block, in place of `amplification`; null: none
+    std::shared_ptr<const sliding::TiedPart> tied;
+    bool one_way = false;         ///< `stages` are followed downstream only, whatever sliding.two_way says
+    /// Of a seam that slides both ways, which `stages` do not; null: none. `upstream` is the yield of the body alone
+    std::shared_ptr<const std::vector<sliding::SeamStage>> bodies;
 
+    bool moves_unlike_ground() const { return tied || amplification != 1.0; }
     /// Why it is not at rest before the earthquake: "friction 0.5 is below the 0.645 that would hold it".
     std::string why_it_fails() const;
 };
@@ -46,13 +53,23 @@ struct RigidStatics {
     std::optional<sliding::BaseState> later; ///< with the drains lost
     sliding::AddedMassIntegral water;
 };
-class KeptStatics {
+template <class Found>
+class KeptOnce {
 public:
-    const RigidStatics& get(const std::function<RigidStatics()>& find);
+    const Found& get(const std::function<Found()>& find)
+    {
+        const std::lock_guard lock(mutex_);
+        if (!found_) found_ = find();
+        return *found_;
+    }
 
 private:
     std::mutex mutex_;
-    std::optional<RigidStatics> found_;
+    std::optional<Found> found_;
+};
+struct KeptStatics {
+    KeptOnce<RigidStatics> base;
+    KeptOnce<LiftModes> lifts; ///< of lifts.amplification = "modes"
 };
 
 /// On the base, or on the plane that scene.planes.slides_on names.
@@ -82,6 +99,9 @@ sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, co
                                  int polarity, sliding::HistoryOutput history = sliding::HistoryOutput::none);
 sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
                                  sliding::HistoryOutput history = sliding::HistoryOutput::none);
+
+/// Of a seam, with the work of each part, whether or not the motion moves it upstream. @pre model.bodies
+sliding::SeamSlide slide_bodies(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity);
 
 /// The same of models of one scene that differ in friction, side by side where that is sooner; no histories.
 /// @param models  at least one, none null

@@ -91,18 +91,30 @@ Sliding of_lift(sliding::LiftPlane& lift, std::size_t place)
     return s;
 }
 
-Sliding of_seam(sliding::SeamPlane& seam, std::size_t place)
+Sliding of_seam(const Scene& scene, sliding::SeamPlane& seam, std::size_t place)
 {
     const sliding::Chain& chain = seam.model.chain;
     Sliding s{plane_row(PlaneKind::seam, seam.name, place),
               plane_model(std::move(seam.stages), chain.blocks[chain.dam].length, 1.0, true)};
     for (const sliding::SeamFactor& factor : seam.factors) s.row.factors.push_back(finite(factor.factor));
+    add_bodies(scene, seam, s.model);
     s.row.angle = seam.angle;
     s.row.angle_factor = seam.factors.back().angle;
     s.row.yield = seam.yield;
     s.row.slip_factor = seam.slip_factor;
     s.row.stands = seam.status == sliding::ChainStatus::stands;
     return s;
+}
+
+/// Largest horizontal acceleration of the joint in a motion [m/s^2].
+double joint_peak(const sliding::LiftPlane& lift, const RigidModel& model, const sliding::SkippingMotion& motion)
+{
+    if (!model.tied)
+        return lift.joint_amplification * std::max(motion.whole().h_max, -motion.whole().h_min);
+    double peak = 0.0;
+    for (const double a : sliding::joint_motions(motion.motion(), *model.tied, 4, 0.0).joint.accel_h)
+        peak = std::max(peak, std::abs(a));
+    return peak;
 }
 
 void add_seam_warnings(const Scene& scene, const PlaneRow& row, const sliding::SeamPlane& plane,
@@ -130,13 +142,40 @@ void add_seam_warnings(const Scene& scene, const PlaneRow& row, const sliding::S
                              to_lock / units::degree));
     }
     const PlaneSlip* worst = row.worst();
-    if (worst && scene.planes.geometry == PlaneGeometry::small && worst->slide.max_slip > plane.valid_slip)
+    if (worst && scene.planes.geometry == PlaneGeometry::small &&
+        reported(worst->slide.status, worst->slide.max_slip).value_or(0.0) > plane.valid_slip)
         warn(fmt::format("it slides {:.3g} m, beyond the {:.3g} m at which the rock that crosses the kink has changed a_y by "
                          "5 %; write  planes.geometry = \"linear\".",
                          worst->slide.max_slip, plane.valid_slip));
     for (std::size_t i = 0; i < plane.resultants.size(); ++i)
         if (plane.resultants[i] < 0.0 || plane.resultants[i] > 1.0)
             warn(fmt::format("the resultant of block {} acts outside its segment: it tips before it slides.", i + 1));
+}
+
+/// The bodies of a seam under all motions: whether they press on each other on the way, and the works in the worst run.
+void add_work(const Scene& scene, Sliding& s, const std::vector<sliding::SkippingMotion>& motions, Planes& planes)
+{
+    const sliding::SeamPlane& plane = planes.seams[s.row.place];
+    const auto warn = [&](const std::string& what) {
+        planes.warnings.push_back(fmt::format("seam \"{}\": {}", s.row.name, what));
+    };
+    std::optional<SeamWork> worst;
+    bool pulls = false, back = false;
+    for (const sliding::SkippingMotion& motion : motions)
+        for (const int polarity : {1, -1}) {
+            if (motion.motion().is_sequence()) return;
+            SeamWork work{s.row.name, motion.motion().name, polarity,
+                          slide_bodies(scene, s.model, motion.motion(), polarity)};
+            pulls = pulls || work.slide.least_pressure < 0.0;
+            back = back || (work.slide.slide.max_gap > 0.0 &&
+                            plane.wedge_back < std::max(motion.whole().h_max, -motion.whole().h_min));
+            if (!worst || work.slide.slide.max_slip > worst->slide.slide.max_slip) worst = std::move(work);
+        }
+    if (pulls)
+        warn("as it slows down the dam would pull on its wedge or a block on its plane: the wedge would run ahead there, which "
+             "is not followed.");
+    if (back) warn("its wedge would slide back into the gap that the dam leaves; that is not followed.");
+    if (worst && worst->slide.slide.max_slip > 0.0) planes.works.push_back(std::move(*worst));
 }
 
 template <class Value>
@@ -181,15 +220,31 @@ const PlaneRow& governing(const Planes& planes, PlaneJudgement by)
     return planes.rows[by == PlaneJudgement::factor ? planes.by_factor : planes.by_slip];
 }
 
+namespace {
+
+/// FAIL, undecided, PASS, none.
+Verdict worse_of(Verdict a, Verdict b)
+{
+    const auto rank = [](Verdict x) {
+        return x == Verdict::fail ? 3 : x == Verdict::undecided ? 2 : x == Verdict::pass ? 1 : 0;
+    };
+    return rank(b) > rank(a) ? b : a;
+}
+
+} // namespace
+
+Verdict judge(const Planes& planes, const Scene& scene)
+{
+    Verdict verdict = Verdict::none;
+    for (const PlaneRow& row : planes.rows)
+        if (row.kind != PlaneKind::base) verdict = worse_of(verdict, judge(row, planes, scene));
+    return verdict;
+}
+
 Verdict judge(const PlaneRow& row, const Planes& planes, const Scene& scene)
 {
     Verdict verdict = Verdict::none;
-    const auto take = [&verdict](Verdict v) { // the worse: FAIL, undecided, PASS, none
-        const auto rank = [](Verdict x) {
-            return x == Verdict::fail ? 3 : x == Verdict::undecided ? 2 : x == Verdict::pass ? 1 : 0;
-        };
-        if (rank(v) > rank(verdict)) verdict = v;
-    };
+    const auto take = [&verdict](Verdict v) { verdict = worse_of(verdict, v); };
     if (scene.planes.governs == PlaneJudgement::factor) {
         for (std::size_t i = 0; i < row.factors.size(); ++i)
             if (planes.states[i].required && row.factors[i])
@@ -219,23 +274,34 @@ Planes find_planes(const Ready& ready, const std::vector<sliding::Equilibrium>& 
     of_base.slips = std::move(slips);
     of_base.stands = base.state == sliding::StaticState::at_rest;
 
-    if (scene.lifts) planes.lifts = sliding::lift_planes(scene, grounds);
+    std::vector<sliding::SkippingMotion> motions;
+    for (const RecordPair& pair : ready.records()) motions.emplace_back(ground_motion(scene, pair));
+    const std::optional<LiftModes> modes = lifts_vibrate(scene) ? std::optional(lift_modes(scene)) : std::nullopt;
+    if (modes) planes.lifts = sliding::lift_planes(scene, grounds, lift_amplification(*modes, motions, scene.damping.ratio));
+    else if (scene.lifts) planes.lifts = sliding::lift_planes(scene, grounds);
     planes.seams.resize(scene.seams.size());
     parallel_for(scene.seams.size(), jobs,
                  [&](std::size_t i) { planes.seams[i] = sliding::seam_plane(scene, scene.seams[i], grounds); });
     std::vector<Sliding> all;
-    for (std::size_t i = 0; i < planes.lifts.size(); ++i) all.push_back(of_lift(planes.lifts[i], i));
-    for (std::size_t i = 0; i < planes.seams.size(); ++i) all.push_back(of_seam(planes.seams[i], i));
+    for (std::size_t i = 0; i < planes.lifts.size(); ++i) {
+        all.push_back(of_lift(planes.lifts[i], i));
+        if (modes) all.back().model.tied = std::make_shared<const sliding::TiedPart>(modes->parts[i]);
+    }
+    for (std::size_t i = 0; i < planes.seams.size(); ++i) all.push_back(of_seam(scene, planes.seams[i], i));
 
-    std::vector<sliding::SkippingMotion> motions;
-    for (const RecordPair& pair : ready.records()) motions.emplace_back(ground_motion(scene, pair));
     parallel_for(all.size(), jobs, [&](std::size_t i) {
-        for (const sliding::SkippingMotion& motion : motions)
+        for (const sliding::SkippingMotion& motion : motions) {
+            PlaneRow& row = all[i].row;
+            if (row.kind == PlaneKind::lift)
+                row.joint_peak = std::max(row.joint_peak.value_or(0.0), joint_peak(planes.lifts[row.place], all[i].model, motion));
             for (const int polarity : {1, -1})
                 all[i].row.slips.push_back({motion.motion().name, polarity,
                                             slide_model(scene, all[i].model, motion, polarity)});
+        }
     });
 
+    for (Sliding& s : all)
+        if (s.model.bodies && s.model.state == sliding::StaticState::at_rest) add_work(scene, s, motions, planes);
     planes.rows.push_back(std::move(of_base));
     for (Sliding& s : all) planes.rows.push_back(std::move(s.row));
     planes.by_factor = least(planes.rows, [&](const PlaneRow& row) { return margin(row, planes.states); });

@@ -28,6 +28,13 @@ struct PlaneSlip {
     sliding::SlideResult slide;
 };
 
+/// Works on the bodies of a seam in the run of its largest slip.
+struct SeamWork {
+    std::string plane, record;
+    int polarity = 1;
+    sliding::SeamSlide slide;
+};
+
 struct PlaneRow {
     PlaneKind kind = PlaneKind::base;
     std::string name;
@@ -36,6 +43,7 @@ struct PlaneRow {
     std::vector<std::optional<double>> factors; ///< of each state [-]; none: not known, or nothing drives it
     double yield = 0.0;                         ///< a_y of the ground [m/s^2]
     double amplification = 1.0;                 ///< mean acceleration of the mass over the ground's [-]
+    std::optional<double> joint_peak;           ///< of a lift: largest acceleration at the joint, horizontal [m/s^2]
     double slip_factor = 1.0;                   ///< acceleration of the slip over the ground's above a_y [-]
     std::vector<PlaneSlip> slips;               ///< record after record, both polarities
     bool stands = true;                         ///< its blocks press on each other and on the plane at the yield
@@ -52,6 +60,7 @@ struct Planes {
     std::vector<PlaneRow> rows;     ///< the base, lifts from the bottom up, seams; empty: the scene has neither
     std::vector<sliding::LiftPlane> lifts;
     std::vector<sliding::SeamPlane> seams;
+    std::vector<SeamWork> works; ///< of seams that slide as body and wedge
     std::size_t by_factor = 0, by_yield = 0, by_slip = 0; ///< rows that govern
     std::vector<std::string> warnings;
 };
@@ -61,6 +70,9 @@ const PlaneRow& governing(const Planes& planes, PlaneJudgement by);
 
 /// Of one plane: its factors where they are asked for, and its slips. PASS only where its blocks stand.
 Verdict judge(const PlaneRow& row, const Planes& planes, const Scene& scene);
+
+/// The worst verdict of lifts and seams; none: there are none, or nothing to judge them by.
+Verdict judge(const Planes& planes, const Scene& scene);
 
 /// @param combinations  of the base, which say the states, what is required in them and the base's factors
 /// @param base  the rigid model of the base @param slips  of the base

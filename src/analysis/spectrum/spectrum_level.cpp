@@ -35,22 +35,6 @@ struct Plane {
     double level = 0.0;  ///< of its middle [m]
 };
 
-/// Where the unknowns of the model act.
-struct Unknown {
-    Point at;
-    int component = -1; ///< 0: x, 1: y
-};
-
-std::vector<Unknown> unknowns_of(const fe2d::Model& model)
-{
-    std::vector<Unknown> list(static_cast<std::size_t>(model.dofs.count));
-    for (int node = 0; node < model.mesh.node_count(); ++node)
-        for (int c = 0; c < 2; ++c)
-            if (const int dof = model.dofs(node, c); dof != fe2d::no_dof)
-                list[static_cast<std::size_t>(dof)] = {model.mesh.nodes[static_cast<std::size_t>(node)], c};
-    return list;
-}
-
 Plane base_plane(const Section& section)
 {
     const Point a = heel(section), b = toe(section);
@@ -466,54 +450,10 @@ SpectrumLevel spectrum_level(const Ready& ready, const std::vector<LevelSpectrum
     return s;
 }
 
-namespace {
-
-[[noreturn]] void no_modes(const Scene& scene, const std::string& what)
-{
-    throw NotConverged(
-        Diagnostic{scene.file.string(), 0, 0, what, "modes of the dam on a bonded base", "see  damslip modes SCENE"});
-}
-
-/// Force of still water that the ground pushes with -1 m/s^2: H L^-1 flux.
-Eigen::VectorXd static_water(const Scene& scene, const fe2d::CoupledPencil& pencil, const Eigen::VectorXd& flux)
-{
-    fe2d::LinearSolver solver;
-    if (!solver.factorise(pencil.water_stiffness).ok()) no_modes(scene, "the water: " + solver.report().text());
-    return pencil.coupling * solver.solve(flux);
-}
-
-} // namespace
-
 ModalForces modal_forces(const ModesResult& m, ModalDirection direction)
 {
-    if (!m.complete()) no_modes(m.scene, "the modes were not all found.");
-    ModalForces f;
-    Eigen::MatrixXd shape;
-    const Eigen::Index axis = direction == ModalDirection::horizontal ? 0 : 1;
-    Eigen::VectorXd participation, rigid = axis == 0 ? m.model.inertia_x : m.model.inertia_y;
-    f.frequency = m.coupled ? m.coupled->frequency : m.modes.frequency;
-    const Eigen::VectorXd omega_squared = (2.0 * std::numbers::pi * f.frequency).array().square();
-    if (m.coupled) {
-        const fe2d::CoupledPencil pencil = fe2d::coupled_pencil(m.model, *m.water);
-        shape = m.coupled->displacement;
-        const Eigen::VectorXd& flux = axis == 0 ? pencil.flux_x : pencil.flux_y;
-        participation = shape.transpose() * rigid;
-        participation += ((m.coupled->pressure.transpose() * flux).array() / omega_squared.array()).matrix();
-        rigid += static_water(m.scene, pencil, flux);
-        f.total_mass = m.coupled->total_mass[axis];
-    } else {
-        shape = m.modes.shape;
-        participation = m.modes.participation.row(axis).transpose();
-        f.total_mass = m.model.total_mass[axis];
-    }
-    if (f.frequency.size() == 0) no_modes(m.scene, "the dam has no mode.");
-    f.effective_mass = participation.array().square();
-    const Eigen::VectorXd factor = participation.array() / omega_squared.array();
-    f.displacement = shape * factor.asDiagonal();
-    f.force = m.model.stiffness * f.displacement;
-    f.residual = rigid - f.force.rowwise().sum();
-    f.residual_mass = f.total_mass - f.effective_mass.sum();
-    return f;
+    if (!m.complete()) refuse_modes(m.scene, "the modes were not all found.");
+    return modal_forces(m.scene, m.model, m.modes, m.coupled ? &*m.coupled : nullptr, m.water ? &*m.water : nullptr, direction);
 }
 
 } // namespace damslip

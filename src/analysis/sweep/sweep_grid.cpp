@@ -144,6 +144,7 @@ void scale_rock(Scene& scene, double factor)
     if (scene.foundation) {
         scene.foundation->width *= factor;
         scene.foundation->depth *= factor;
+        for (Point& p : scene.foundation->ground) p = {p.x * factor, p.y * factor};
     }
     if (scene.curtain) {
         scene.curtain->distance *= factor;
@@ -172,6 +173,25 @@ void scale_water(Scene& scene, double factor)
     if (scene.ice) scene.ice->level *= factor;
 }
 
+void scale_planes(Scene& scene, double factor)
+{
+    for (LiftJoint& joint : scene.lift_joints) joint.elevation *= factor;
+    if (scene.lifts) {
+        Lifts& lifts = *scene.lifts;
+        for (std::optional<double>* length :
+             {&lifts.spacing, &lifts.from, &lifts.to, &lifts.drains_distance, &lifts.gallery_level})
+            scale(*length, factor);
+        for (double& elevation : lifts.elevations) elevation *= factor;
+        for (Point& p : lifts.points) p.x *= factor; // y is an amplification
+    }
+    for (Seam& seam : scene.seams) {
+        for (Point& p : seam.points) p = {p.x * factor, p.y * factor};
+        scale(seam.depth, factor);
+        for (Point& p : seam.uplift_points) p.x *= factor;
+        if (seam.wedge) seam.wedge->distance *= factor;
+    }
+}
+
 } // namespace
 
 Scene sized(Scene scene, double factor)
@@ -181,7 +201,7 @@ Scene sized(Scene scene, double factor)
     scale_rock(scene, factor);
     scale_water(scene, factor);
     for (PointForce& force : scene.forces) force.at = {force.at.x * factor, force.at.y * factor};
-    for (LiftJoint& joint : scene.lift_joints) joint.elevation *= factor;
+    scale_planes(scene, factor);
     for (Anchor& anchor : scene.anchors) { // forces with the weight, so that the anchored dam stays similar
         anchor.distance *= factor;
         anchor.free_length *= factor;

@@ -161,6 +161,8 @@ std::vector<std::string> warnings(const Ablations& in)
 {
     std::vector<std::string> list = record_warnings(in.records);
     const std::vector<std::string> names = scene_names(in.plan);
+    if (in.plan.method == Method::rigid_block && (in.plan.full.lifts || !in.plan.full.seams.empty()))
+        list.push_back("Yield, critical friction and slip are those of the plane where they are worst: base, lifts and seams.");
     for (std::size_t r = 0; r < in.runs.motions.size(); ++r)
         for (std::size_t i = 0; i < names.size(); ++i) {
             const MotionOutcome& o = in.runs.scenes[i].motions[r];

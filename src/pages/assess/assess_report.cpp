@@ -7,6 +7,7 @@
 #include "pages/report/json.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
+#include "pages/screen/screen_pages.hpp"
 #include "pages/spectrum/spectrum_tables.hpp"
 #include "scene/plausible.hpp"
 #include "sliding/equilibrium/limit_equilibrium.hpp"
@@ -164,6 +165,13 @@ std::vector<std::string> assess_notes(const Assessment& a)
     return notes;
 }
 
+/// Of lifts and seams, by rigid blocks; none: the scene has neither.
+std::optional<Table> governing_planes(const Assessment& a)
+{
+    if (a.screening.planes.rows.empty()) return std::nullopt;
+    return plane_table(a.screening.planes, a.ready.scene, PlaneRows::governing);
+}
+
 } // namespace
 
 Table level_table(const Assessment& a)
@@ -220,7 +228,7 @@ Headline assess_headline(const Assessment& a)
                                 : a.slip_verdict != Verdict::none    ? word(a.slip_verdict)
                                 : a.recommended                      ? "No criterion."
                                                                      : "No answer.";
-    return with_failed_checks({sentence, outcome, verdict}, a.failed_checks);
+    return with_failed_checks(with_planes({sentence, outcome, verdict}, a.screening.planes, a.ready.scene), a.failed_checks);
 }
 
 Page assess_page(const Assessment& a, const Scene& given)
@@ -238,6 +246,8 @@ Page assess_page(const Assessment& a, const Scene& given)
     page.warnings = assess_notes(a);
     for (std::string& w : record_warnings(a.ready.records())) page.warnings.push_back(std::move(w));
     page.sections.push_back({"Slip by level", {level_chart(a), rows_part(level_table(a))}, Fold::open});
+    if (const auto planes = governing_planes(a))
+        page.sections.push_back({"Planes that govern", {rows_part(*planes)}, Fold::open});
     for (const auto& [title, sentences] : answers(a)) {
         if (sentences.empty()) continue;
         page.sections.push_back(sentences_section(title, sentences));
@@ -274,6 +284,7 @@ nlohmann::ordered_json assess_json(const Assessment& a, const Scene& given)
     const Headline headline = assess_headline(a);
     j["headline"] = headline.sentence + " " + headline.verdict;
     j["levels"] = json_of(level_table(a));
+    if (const auto planes = governing_planes(a)) j["planes"] = json_of(*planes);
     j["assumptions"] = json_of(assumption_table(a));
     for (const auto& [title, sentences] : answers(a)) j["answers"][title] = sentences;
     j["limit_equilibrium"] = json_of(sliding::equilibrium_table(a.screening.combinations));
@@ -291,6 +302,8 @@ Answer assess_answer(const Assessment& a, const Scene& given)
     all.add(level_table(a),
             {{"record", "level", "how", "polarity", "slip_mm", "low_mm", "high_mm", "status"}, "slip_mm"},
             text(level_table(a)) + gap);
+    if (const auto planes = governing_planes(a))
+        all.add(*planes, {{"plane", "factor", "a_y_m_s2", "slip_m", "verdict", "governs"}, "slip_m"}, "\n" + text(*planes));
     if (a.spectrum) all += text(spectrum_table(*a.spectrum)) + (a.assumptions.empty() ? "" : "\n");
     if (!a.assumptions.empty())
         all.add(assumption_table(a), {{"assumption", "slip_mm", "change_mm", "status"}, "change_mm"},

@@ -53,7 +53,8 @@ Table plane_table(const Planes& planes, const Scene& scene, PlaneRows which)
 {
     std::vector<std::size_t> shown;
     for (std::size_t i = 0; i < planes.rows.size(); ++i)
-        if (which == PlaneRows::all || planes.rows[i].kind != PlaneKind::lift || !governs_words(planes, i).empty())
+        if (which == PlaneRows::all || !governs_words(planes, i).empty() ||
+            (which == PlaneRows::governing_lifts && planes.rows[i].kind != PlaneKind::lift))
             shown.push_back(i);
     using R = std::size_t;
     const auto row = [&](R i) -> const PlaneRow& { return planes.rows[i]; };
@@ -99,8 +100,10 @@ Table plane_table(const Planes& planes, const Scene& scene, PlaneRows which)
                "α: angle of the wedge's plane at the least a_y; slip: largest of all records and both polarities, with the "
                "vertical component where a record has one."};
     if (shown.size() < planes.rows.size())
-        t.notes.push_back(fmt::format("{} lifts that govern nothing: see the table of lifts.",
-                                      planes.rows.size() - shown.size()));
+        t.notes.push_back(which == PlaneRows::governing
+                              ? fmt::format("{} planes that govern nothing: see  damslip screen .", planes.rows.size() - shown.size())
+                              : fmt::format("{} lifts that govern nothing: see the table of lifts.",
+                                            planes.rows.size() - shown.size()));
     return t;
 }
 
@@ -132,6 +135,7 @@ Table lift_plane_table(const Planes& planes)
         {{"crack_m", "crack", "m", 4}, [](const L& l) { return l.state.base.crack.length; }},
         {{"a_y_m_s2", "a_y", "m/s²", 4}, [](const L& l) { return finite_cell(l.row.yield); }},
         {{"amplification", "Ā", "–", 4}, [](const L& l) { return l.row.amplification; }},
+        {{"joint_peak_m_s2", "max a_J", "m/s²", 4}, [](const L& l) { return optional_cell(l.row.joint_peak); }},
         {{"slip_mm", "slip", "mm", 5}, [](const L& l) { return optional_cell(slip_of(l.row), mm); }}};
     columns.insert(columns.end(), rest.begin(), rest.end());
     const bool weakens = std::any_of(lifts.begin(), lifts.end(), [](const L& l) {
@@ -145,7 +149,7 @@ Table lift_plane_table(const Planes& planes)
     });
     return table_of<L>("Lifts", columns, lifts,
                        {fmt::format("N', T, F, stresses (compression positive, effective) and crack in {}; a_y: of the ground, "
-                                    "Ā: mean acceleration of the part above over it.",
+                                    "Ā: mean acceleration of the part above over it; max a_J: of the joint in all records.",
                                     planes.states[last].ground.name)});
 }
 
@@ -368,6 +372,41 @@ Table seam_factor_table(const Planes& planes)
          "5 %."});
 }
 
+Table work_table(const Planes& planes)
+{
+    using W = SeamWork;
+    const auto of = [](double sliding::SeamLedger::*part) {
+        return [part](const W& w) { return w.slide.ledger.*part / kN; };
+    };
+    const auto of_plane = [](std::size_t i) {
+        return [i](const W& w) {
+            const std::vector<double>& list = w.slide.ledger.planes;
+            return i < list.size() ? Cell(list[i] / kN) : Cell();
+        };
+    };
+    return table_of<W>(
+        "Works",
+        {{{"plane", "plane"}, &W::plane},
+         {{"record", "record"}, &W::record},
+         {{"polarity", "polarity"}, [](const W& w) { return Cell(std::int64_t{w.polarity}); }},
+         {{"ground_kJ_m", "ground", "kJ/m", 5}, of(&sliding::SeamLedger::ground)},
+         {{"loads_kJ_m", "loads", "kJ/m", 5}, of(&sliding::SeamLedger::loads)},
+         {{"water_kJ_m", "water below", "kJ/m", 5}, of(&sliding::SeamLedger::water)},
+         {{"weight_kJ_m", "weight", "kJ/m", 5}, of(&sliding::SeamLedger::weight)},
+         {{"seam_kJ_m", "seam", "kJ/m", 5}, of_plane(0)},
+         {{"wedge_kJ_m", "wedge", "kJ/m", 5}, of_plane(1)},
+         {{"interface_kJ_m", "interface", "kJ/m", 5},
+          [](const W& w) { return w.slide.ledger.interfaces.empty() ? Cell() : Cell(w.slide.ledger.interfaces[0] / kN); }},
+         {{"impact_kJ_m", "impacts", "kJ/m", 5}, [](const W& w) { return -w.slide.ledger.impact / kN; }},
+         {{"impacts", "number"}, [](const W& w) { return Cell(std::int64_t{w.slide.impacts}); }},
+         {{"gap_mm", "widest gap", "mm", 4}, [](const W& w) { return w.slide.slide.max_gap / mm; }},
+         {{"error_share", "what is left", "–", 2},
+          [](const W& w) { return w.slide.ledger.error() / std::max(1.0, std::abs(w.slide.ledger.ground)); }}},
+        planes.works,
+        {"In the run of the largest slip, relative to the ground: what the ground's motion, static loads, water and weight do, "
+         "less what the planes and impacts take; what is left over that of the ground."});
+}
+
 } // namespace
 
 std::vector<Table> plane_tables(const Planes& planes, const Scene& scene, PlaneRows which)
@@ -378,6 +417,7 @@ std::vector<Table> plane_tables(const Planes& planes, const Scene& scene, PlaneR
     if (planes.seams.empty()) return tables;
     tables.push_back(seam_factor_table(planes));
     tables.push_back(block_table(planes));
+    if (!planes.works.empty()) tables.push_back(work_table(planes));
     return tables;
 }
 

@@ -105,8 +105,10 @@ Table event_table(const Screening& s);
 /// Slip of the flexible block beside the rigid one, with its verdict.
 Table flexible_table(const Screening& s, const std::optional<double>& allowable);
 
-/// Which rows of the table of planes: terminals show of the lifts those that govern.
-enum class PlaneRows { all, governing };
+/// Which rows of the table of planes: terminals show of the lifts those that govern; `assess` of all planes.
+enum class PlaneRows { all, governing_lifts, governing };
+/// Base, lifts and seams side by side. @pre there are planes
+Table plane_table(const Planes& planes, const Scene& scene, PlaneRows which);
 /// Base, lifts and seams side by side; then each lift, each seam, and the blocks of each seam. Empty: the scene has neither.
 std::vector<Table> plane_tables(const Planes& planes, const Scene& scene, PlaneRows which);
 /// The tables, a drawing of each seam with its blocks, water and forces, and charts over elevation and wedge angle.

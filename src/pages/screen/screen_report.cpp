@@ -540,7 +540,7 @@ Answer screen_answer(const ScreenReportInput& in)
     if (in.spectrum) out += spectrum_text(*in.spectrum) + "\n";
     show(regression_summary(s.regressions));
     bool first = true; // the table of planes is part of the answer, those of their parts are not
-    for (const Table& table : plane_tables(s.planes, in.scene, PlaneRows::governing)) {
+    for (const Table& table : plane_tables(s.planes, in.scene, PlaneRows::governing_lifts)) {
         if (first) out.add(table, {{"plane", "verdict", "factor", "a_y_m_s2", "slip_m", "governs"}, "slip_m"});
         else show(table);
         first = false;

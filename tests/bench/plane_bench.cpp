@@ -1,0 +1,77 @@
+// Rows of a rigid sweep on a seam with a passive wedge against rows of the base, nanoseconds per row and their ratio: at most 2.
+//
+// The same artificial motions, scales and frictions for both; "slides": rows of one model, "models": making one for each friction.
+#include "analysis/prepare/plane_model.hpp"
+#include "verification/exact/reference_scene.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <random>
+
+namespace {
+
+using namespace damslip;
+
+GroundMotion artificial()
+{
+    std::mt19937 random(7);
+    GroundMotion motion{"artificial", 0.005, {0.0}, {}, {}};
+    double u = 0.0, v = 0.0;
+    for (double t = 0.005; t < 30.0; t += 0.005) {
+        double noise = 0.0;
+        for (int i = 0; i < 4; ++i) noise += static_cast<double>(random()) / 4294967296.0 - 0.5;
+        v += 0.005 * (20.0 * noise - 19.0 * v - 247.0 * u);
+        u += 0.005 * v;
+        motion.accel_h.push_back(25.0 * std::min(1.0, t / 4.0) * std::exp(-0.15 * std::max(0.0, t - 8.0)) * (19.0 * v + 247.0 * u));
+    }
+    return motion;
+}
+
+double seconds(const std::function<void()>& work)
+{
+    double best = 1e9;
+    for (int i = 0; i < 7; ++i) {
+        const auto start = std::chrono::steady_clock::now();
+        work();
+        best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    return best;
+}
+
+} // namespace
+
+int main()
+{
+    Scene scene = exact::seam_scene();
+    const GroundMotion motion = artificial();
+    std::vector<sliding::SkippingMotion> motions;
+    for (int i = 1; i <= 20; ++i) {
+        GroundMotion scaled = motion;
+        for (double& a : scaled.accel_h) a *= 0.1 * i;
+        motions.emplace_back(std::move(scaled));
+    }
+    double slides[2], models[2], sum = 0.0;
+    for (const bool on_seam : {false, true}) {
+        const auto model = [&](double friction) {
+            Scene here = scene;
+            here.planes.slides_on = on_seam ? here.seams[0].name : "";
+            (on_seam ? here.seams[0].strength : here.contact).friction = friction;
+            return make_rigid_model(here, {});
+        };
+        // Frictions at which both start to slide alike.
+        const RigidModel one = model(on_seam ? 0.7 : 0.77);
+        slides[on_seam] = seconds([&] {
+            for (const sliding::SkippingMotion& m : motions)
+                for (const int polarity : {1, -1}) sum += slide_model(scene, one, m, polarity).max_slip;
+        }) / 40.0;
+        models[on_seam] = seconds([&] {
+            for (int i = 0; i < 20; ++i) sum += model((on_seam ? 0.7 : 0.77) + 0.001 * i).downstream.law.constant;
+        }) / 20.0;
+        std::printf("%-6s a_y %.3f m/s2   slides %10.0f ns/row   models %10.0f ns\n", on_seam ? "seam" : "base",
+                    one.downstream.law.constant, 1e9 * slides[on_seam], 1e9 * models[on_seam]);
+    }
+    std::printf("seam over base: slides %.2f (at most 2), models %.2f   (%g)\n", slides[1] / slides[0], models[1] / models[0], sum);
+    return slides[1] <= 2.0 * slides[0] ? 0 : 1;
+}
