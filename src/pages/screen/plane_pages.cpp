@@ -86,6 +86,7 @@ Table plane_table(const Planes& planes, const Scene& scene, PlaneRows which)
         {{"verdict", "verdict"},
          [row, &planes, &scene](R i) {
              const Verdict verdict = judge(row(i), planes, scene);
+             if (verdict == Verdict::pass) return Cell("below"); // rigid blocks
              return verdict == Verdict::none ? Cell() : Cell(word(verdict));
          }},
         {{"governs", "governs by"}, [&planes](R i) { return governs_words(planes, i); }}};
@@ -98,7 +99,7 @@ Table plane_table(const Planes& planes, const Scene& scene, PlaneRows which)
                               s.required ? fmt::format(", required {:.4g}", *s.required) : "");
     t.notes = {"F: factor of safety in " + states + "; a_y: ground acceleration at which it starts to slide.",
                "α: angle of the wedge's plane at the least a_y; slip: largest of all records and both polarities, with the "
-               "vertical component where a record has one."};
+               "vertical component where a record has one; below: no PASS, rigid blocks are no upper bound of an elastic dam."};
     if (shown.size() < planes.rows.size())
         t.notes.push_back(which == PlaneRows::governing
                               ? fmt::format("{} planes that govern nothing: see  damslip screen .", planes.rows.size() - shown.size())
