@@ -19,7 +19,8 @@ namespace {
 constexpr double default_strength = 2e6; ///< of mass concrete, for ℓ_ch alone [Pa]
 constexpr double default_energy = 200.0; ///< the same [N/m]
 constexpr double near_strength = 0.25;   ///< index of a line from which on every step counts
-constexpr long line_steps = 4, patch_steps = 16;
+constexpr long line_steps = 4, patch_looks = 16;
+constexpr double stress_interval = 0.005; ///< [s]
 constexpr double more_than_before = 1.01; ///< of the stress on the faces, so that all patches are looked at
 
 using Columns = std::map<int, std::array<double, 6>>; ///< by the first unknown of a node
@@ -294,13 +295,16 @@ void CrackWatch::look(double time, const VectorXd& u, const VectorXd& v, CrackFi
         lift.time = time;
         lift.distance = distance;
     }
+    // Stresses about every 5 ms, whatever the step; the start and the first steps in any case.
+    const long between = time > 0.0 ? std::max(1L, std::lround(stress_interval * static_cast<double>(steps_) / time)) : 1;
+    const long looked = steps_ / between;
+    if (steps_++ % between != 0) return;
     double on_face = 0.0;
     for (std::size_t k = 0; k < lines_.on_face_; ++k)
         on_face = std::max(on_face, lines_.tension_of(lines_.patches_[k], u));
-    if (on_face > figures.stress || on_face > more_than_before * on_face_ || steps_ % patch_steps == 0)
+    if (on_face > figures.stress || on_face > more_than_before * on_face_ || looked % patch_looks == 0)
         for (const CrackLines::Patch& patch : lines_.patches_) look_at(patch, time, u, figures);
     on_face_ = std::max(on_face_, on_face);
-    ++steps_;
 }
 
 } // namespace damslip::fe2d

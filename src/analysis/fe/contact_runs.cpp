@@ -85,13 +85,18 @@ void ContactRuns::wake_lifts()
     }
 }
 
-/// Makes joints of the lifts that have reached wake_index. @returns whether there are any
+/// Makes joints of the lifts that have reached wake_index: of each run those with about the largest index, for once they crack
+/// they relieve the others. @returns whether there are any
 bool ContactRuns::wake(const std::vector<fe2d::RunResult>& runs)
 {
+    constexpr double about = 0.95;
     std::vector<std::string> names;
-    for (const fe2d::RunResult& run : runs)
+    for (const fe2d::RunResult& run : runs) {
+        double largest = fe2d::wake_index;
+        for (const fe2d::TiedLift& lift : run.cracks.lifts) largest = std::max(largest, lift.index);
         for (const fe2d::TiedLift& lift : run.cracks.lifts)
-            if (lift.index >= fe2d::wake_index) names.push_back(lift.name);
+            if (lift.index >= std::max(fe2d::wake_index, about * largest)) names.push_back(lift.name);
+    }
     if (names.empty()) return false;
     ++passes_to_wake_;
     ready_.scene = with_awake_lifts(std::move(ready_.scene), names);
