@@ -129,6 +129,7 @@ def check(name, command, with_golden):
 
 
 def compare(name, text):
+    text = re.sub(r"\d\.\de-1\d", "round-off", text)  # another processor, other last bits
     file = golden / f"{name}.txt"
     if update:
         file.write_text(text)

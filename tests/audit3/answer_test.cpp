@@ -209,8 +209,9 @@ TEST_F(Audit3Answer, A3_HeadlineJoinsSlipAndLoadCombinations)
 
 TEST_F(Audit3Answer, A5_HeadlineOfTheRigidBlockIsNoBound)
 {
-    const json screen = answer({"screen", write("dam", dam("friction = 0.6", "[criteria]\nallowable_slip_mm = 5000"))});
+    const json screen = answer({"screen", write("dam", dam("friction = 0.6", "[criteria]\nallowable_slip_mm = 5000")), "--rigid-only"});
     EXPECT_TRUE(says(screen["headline"].get<std::string>(), "by the rigid block: no bound for an elastic dam"));
+    EXPECT_EQ(screen["verdict"], "Below the allowable as a rigid block; elasticity not checked.");
 }
 
 TEST_F(Audit3Answer, A8_GateOrOvertoppedIsAsked)

@@ -272,7 +272,7 @@ protected:
             for (const auto& [method, keys] : sections)
                 for (const char* key : keys) found[method] += j.contains(key) ? j[key].dump() : "";
         };
-        ask({"screen", "--response-spectrum"}, tables,
+        ask({"screen", "--rigid-only", "--response-spectrum"}, tables,
             {{methods::rigid, {"displacements", "planes"}},
              {methods::equilibrium, {"limit_equilibrium", "verdicts"}},
              {methods::regressions, {"regressions"}},
@@ -280,7 +280,7 @@ protected:
         Tables flexible = tables;
         if (std::none_of(tables.begin(), tables.end(), [](const auto& t) { return t.first == "flexible_block"; }))
             set(flexible, "flexible_block.period_s", "0.3");
-        ask({"screen"}, flexible, {{methods::flexible, {"flexible_block"}}});
+        ask({"screen", "--rigid-only"}, flexible, {{methods::flexible, {"flexible_block"}}});
         ask({"fe", "--no-mesh-error"}, tables, {{methods::fe, {"slip", "stages", "runs"}}});
         ask({"fe", "--reduced", "--no-mesh-error"}, tables, {{methods::reduced, {"stages", "runs"}}});
         ask({"modes"}, tables, {{methods::modes, {"modes", "damping"}}});

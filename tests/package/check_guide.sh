@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A page with a session: runs every command of it, in order, and looks for every line of output that it shows. Other blocks than those of output
-# name their language after the ```. Without a Chromium --pdf is left out. How far a --budget of seconds gets is the machine's affair: there 4, not
+# name their language after the ```; one of TOML that begins "# at the end of FILE" is written there. Without a Chromium --pdf is left out. How far a --budget of seconds gets is the machine's affair: there 4, not
 # within the tolerance, is an answer too.
 #   check_guide.sh DAMSLIP SOURCE PAGE FILE ...     FILE: that the commands leave in their folder
 set -euo pipefail
@@ -24,10 +24,12 @@ while IFS= read -r line; do
         case $code$line in 0*|4*' --budget '*) ;; *) fail "$line exits with $code: $(tail -n 3 talk)" ;; esac
         squeezed answer >squeezed
         commands=$((commands + 1)) ;;
+    'no    sed '*) eval "$line" ;;
+    'other# at the end of '*) file=${line#'# at the end of '} ;;
     'no```') shown=yes ;;
-    'no```'*) shown=other ;;
+    'no```'*) shown=other file=/dev/null ;;
     'other```') shown=no ;;
-    other*) ;;
+    other*) printf '%s\n' "$line" >>"$file" ;;
     'yes```') shown=no ;;
     yes*)
         printf '%s\n' "$line" >wanted

@@ -60,6 +60,7 @@ std::string with_key(const std::string& table, const std::string& key, const std
     if (table == "limit") {
         const bool factor = key == "below" || value == "\"post-seismic-fs\"";
         return "[[limit]]\n" + line + (key == "below" ? "quantity = \"post-seismic-fs\"\n" : "") +
+               (key == "plane" ? "above_mm = 50\n" : "") +
                (key != "quantity" ? ""
                 : factor          ? "below = 1.1\n"
                                   : "above_mm = 50\n");

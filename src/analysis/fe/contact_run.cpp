@@ -84,13 +84,15 @@ std::optional<double> walked_at_least(Status status, double slip)
 std::string SlipError::parts() const
 {
     if (std::isnan(step)) return "no error estimate";
-    if (std::isnan(total)) return "step, mesh not known";
-    return std::isnan(mesh) ? "step only" : "step and mesh";
+    const std::string first = modes ? "modes, step" : "step";
+    return first + (std::isnan(total) ? ", mesh not known" : std::isnan(mesh) ? " only" : " and mesh");
 }
 
 SlipError slip_error(const ContactRun& run)
 {
-    return error_of(run.fe.slip_error, run.mesh.base, run.mesh.check);
+    SlipError error = error_of(run.fe.slip_error, run.mesh.base, run.mesh.check);
+    error.modes = run.few_modes;
+    return error;
 }
 
 SlipError lift_error(const ContactRun& run, std::size_t lift)
@@ -171,6 +173,7 @@ ContactRun as_contact_run(const ReducedRecord& r)
     run.mesh = r.mesh;
     run.rigid = r.rigid;
     run.leaves_out = r.leaves_out;
+    run.few_modes = true;
     run.fe.status = r.result.status;
     run.fe.message = r.result.message;
     run.fe.stages = r.result.stages;

@@ -22,6 +22,7 @@ struct ContactRun : MotionName {
     std::optional<fe2d::RunResult> exact;      ///< with rigid sticking, where that of `fe` gives way
     MeshError mesh;
     bool leaves_out = false; ///< something that the scene asks for (not_honoured()): no PASS rests on the slip
+    bool few_modes = false;  ///< of a ReducedRecord: the step's part of the error holds that of the modes left out
     std::optional<double> tensile_strength = {}; ///< dam.tensile_strength, against which `fe.cracks` is held [Pa]
 };
 
@@ -32,7 +33,8 @@ struct SlipError {
     double total =
         std::numeric_limits<double>::quiet_NaN(); ///< step and mesh; step alone where no mesh part is asked for
                                                   ///< or can be had; NaN where a part that was asked for failed
-    std::string parts() const; ///< "step and mesh", "step only", "step, mesh not known", "no error estimate"
+    bool modes = false; ///< `step` holds what reduced runs leave out, too
+    std::string parts() const; ///< "step and mesh", "modes, step only", "step, mesh not known", "no error estimate"
 };
 SlipError slip_error(const ContactRun& run);
 SlipError lift_error(const ContactRun& run, std::size_t lift);

@@ -466,8 +466,8 @@ void add_points(const Scene& scene, const std::vector<ContactRun>& runs, Answer&
     if (!worst.fe.stages.empty())
         governs += fmt::format("; without earthquake it needs a friction of {:.3g}, given {:.3g}",
                                worst.fe.stages.back().critical_friction, scene.contact.friction);
+    if (const ContactRun* most = most_tensioned(runs)) governs += "; concrete " + crack_words(*most);
     answer.point("governs", governs);
-    if (const ContactRun* most = most_tensioned(runs)) answer.point("concrete", crack_words(*most));
     constexpr double wide = 0.1; // of the slip
     if (error.total > wide * std::abs(worst.fe.max_slip))
         answer.point("look at", error.mesh > error.step ? "the ±, most of it the mesh's: a smaller mesh.size_m"

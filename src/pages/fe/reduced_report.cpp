@@ -17,13 +17,6 @@ namespace damslip::pages {
 
 namespace {
 
-/// With the part of the modes, which the step's holds in a reduced run.
-std::string error_words(const SlipError& error)
-{
-    const std::string words = error.parts();
-    return words.starts_with("step") ? "modes, " + words : words;
-}
-
 Table reduced_table(const std::vector<ReducedRecord>& runs, const std::optional<double>& allowable)
 {
     struct Row {
@@ -37,9 +30,6 @@ Table reduced_table(const std::vector<ReducedRecord>& runs, const std::optional<
             std::find_if(full.begin(), full.end(), [=](const ContactColumn& c) { return c.column.key == key; });
         return ColumnOf<Row>{at->column, [value = at->value](const Row& r) { return value(r.run); }};
     };
-    const auto error_parts = [](const Row& r) {
-        return reported(r.run.fe.status, r.run.fe.slip) ? Cell(error_words(slip_error(r.run))) : Cell();
-    };
     Table t = table_of<Row>(
         "Earthquake runs, reduced, exact contact",
         {shared("record"),
@@ -51,7 +41,7 @@ Table reduced_table(const std::vector<ReducedRecord>& runs, const std::optional<
          {{"slip_error_mm", "± step", "mm", 2}, [](const Row& r) { return slip_cell(r.run, r.reduced.step_error); }},
          shared("mesh_error_mm"),
          shared("total_error_mm"),
-         {{"error_parts", "error holds"}, error_parts},
+         shared("error_parts"),
          shared("max_slip_m"),
          shared("verdict"),
          {{"modes", "modes"}, [](const Row& r) { return r.reduced.modes; }},
