@@ -260,7 +260,7 @@ std::optional<Chart> wedge_chart(const Planes& planes, const sliding::SeamPlane&
         Curve curve{planes.states[i].ground.name, {}, {}, {}, {}, Mark::line_and_points, Weight::normal, int(i)};
         for (const sliding::WedgeTrial& trial : plane.trials) {
             curve.x.push_back(trial.angle / degree);
-            const bool counts = trial.status == sliding::ChainStatus::stands && std::isfinite(trial.factors[i]);
+            const bool counts = trial.statuses[i] == sliding::ChainStatus::stands && std::isfinite(trial.factors[i]);
             curve.y.push_back(counts ? trial.factors[i] : no_value);
         }
         chart.curves.push_back(std::move(curve));
