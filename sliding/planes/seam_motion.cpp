@@ -56,7 +56,8 @@ struct MovingStage {
 
 class SeamRun {
 public:
-    SeamRun(const std::vector<SeamStage>& stages, const SlideOptions& options) : two_way_(options.sliding.two_way)
+    SeamRun(const std::vector<SeamStage>& stages, const SlideOptions& options, SeamWorks works)
+        : two_way_(options.sliding.two_way), books_(works == SeamWorks::booked)
     {
         for (const SeamStage& s : stages) {
             const Chain back = going_upstream(s.body);
@@ -134,7 +135,7 @@ private:
         };
         if (stage_ + 1 < stages_.size()) reach(stages_[stage_ + 1].from_slip - path_, 2);
         if (wedge_ && way_ > 0 && !touching_) reach(contact_ - x_, 3);
-        book(h, v, a, rest, length);
+        if (books_) book(h, v, a, rest, length);
         const double moved = rate_ * length + (0.5 * a.now + jerk * length / 6.0) * length * length;
         x_ += moved;
         path_ += std::abs(moved);
@@ -144,7 +145,7 @@ private:
         out_.slide.peak_slip_rate = std::max(out_.slide.peak_slip_rate, std::abs(rate_));
         out_.slide.max_gap = std::max(out_.slide.max_gap, contact_ - x_);
         out_.slide.last_slip_time = time_ + length;
-        out_.ledger.largest = std::max(out_.ledger.largest, moving().kinetic(rate_));
+        if (books_) out_.ledger.largest = std::max(out_.ledger.largest, moving().kinetic(rate_));
         if (event == 1) {
             stop_counting();
             rate_ = 0.0;
@@ -205,7 +206,7 @@ private:
     }
 
     std::vector<MovingStage> stages_;
-    bool two_way_, wedge_ = false;
+    bool two_way_, books_, wedge_ = false;
     std::size_t stage_ = 0;
     bool touching_ = true;                ///< the wedge
     int way_ = 0;                         ///< 1 downstream, -1 upstream, 0 at rest
@@ -232,10 +233,11 @@ Yield yield_upstream_alone(const Chain& body)
     return {{law.constant / law.drive, law.per_a_v / law.drive}, law.drive / law.mass};
 }
 
-SeamSlide slide_seam(const GroundMotion& motion, const std::vector<SeamStage>& stages, const SlideOptions& options)
+SeamSlide slide_seam(const GroundMotion& motion, const std::vector<SeamStage>& stages, const SlideOptions& options,
+                     SeamWorks works)
 {
     check_motion(motion);
-    SeamRun run(stages, options);
+    SeamRun run(stages, options, works);
     const auto at = [&](std::size_t i) { return options.polarity * motion.accel_h[i]; };
     const auto up = [&](std::size_t i) { return motion.accel_v.empty() ? 0.0 : motion.accel_v[i]; };
     for (std::size_t i = 0; i + 1 < motion.accel_h.size(); ++i)

@@ -32,6 +32,8 @@ struct SeamLedger {
     double error() const { return work() - impact - kinetic; }           ///< round-off
 };
 
+enum class SeamWorks { booked, left_out };
+
 struct SeamSlide {
     SlideResult slide; ///< of the body; impact_loss is that of the ledger, max_gap the widest gap before the wedge
     int impacts = 0;
@@ -45,6 +47,8 @@ Yield yield_upstream_alone(const Chain& body);
 /// Exact between events as slide(): start, stop, stages, and the closing of the gap are roots of polynomials in time. After an
 /// impact the rate is M*_body/M*_chain of that before. Scheme and lift-off of the options are not used, no histories.
 /// @param stages  at least one @param options  two_way: upstream, too
-SeamSlide slide_seam(const GroundMotion& motion, const std::vector<SeamStage>& stages, const SlideOptions& options);
+/// @param works  left out: of the ledger what impacts took alone, and no least pressure; the slide is the same
+SeamSlide slide_seam(const GroundMotion& motion, const std::vector<SeamStage>& stages, const SlideOptions& options,
+                     SeamWorks works = SeamWorks::booked);
 
 } // namespace damslip::sliding

@@ -116,7 +116,7 @@ std::optional<sliding::SlideResult> both_ways(const Scene& scene, const RigidMod
                                               const sliding::AccelRange& range, int polarity)
 {
     if (motion.is_sequence() || model.state != sliding::StaticState::at_rest || !moves_back(scene, model, range, polarity)) return std::nullopt;
-    return slide_bodies(scene, model, motion, polarity).slide;
+    return sliding::slide_seam(motion, *model.bodies, {scene.sliding, polarity}, sliding::SeamWorks::left_out).slide;
 }
 
 } // namespace

@@ -242,10 +242,13 @@ std::vector<std::pair<std::string, std::string>> key_figures(const Scene& scene,
     }
     if (!s.slips.empty()) {
         list.emplace_back("Largest PGA", metres_per_second2(s.largest_pga));
+        if (s.elastic && !s.elastic->runs.empty()) {
+            const ContactRun& run = worst_of(s.elastic->runs);
+            const std::optional<double> slip = reported(run.fe.status, run.fe.max_slip);
+            list.emplace_back("Largest slip, elastic dam", slip ? fmt::format("{:.4g} mm", *slip / mm) : word(run.fe.status));
+        }
         const SlipRow* worst = largest(s);
-        list.emplace_back(worst && worst->governing().method != "rigid"
-                              ? fmt::format("Largest slip, {}", worst->governing().method)
-                              : "Largest slip",
+        list.emplace_back(fmt::format("Largest slip, {}", worst ? worst->governing().method : "rigid"),
                           worst ? fmt::format("{:.4g} mm", worst->judged().max_slip / mm) : "–");
         if (!without_slip_words(s).empty()) list.emplace_back("Statuses", judged_statuses(s).words());
     }
@@ -365,7 +368,8 @@ Page screen_page(const ScreenReportInput& in)
 {
     std::vector<GroundMotion> motions;
     for (const RecordPair& pair : in.records) motions.push_back(ground_motion(in.scene, pair));
-    const std::string body = in.scene.wedge ? "wedge. " : "block. ";
+    const bool elastic = in.screening.elastic && !in.screening.elastic->runs.empty();
+    const std::string body = in.scene.wedge ? "wedge. " : elastic ? "block and the elastic dam. " : "block. ";
     Page page = begin_page(in.scene, "Sliding in an earthquake: screening with the rigid " + body,
                            in.screening.plan.scene_hash);
     page.headline = screen_headline(in.scene, in.screening);
