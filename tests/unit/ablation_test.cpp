@@ -376,7 +376,8 @@ TEST_F(AblateScene, FiniteElementRowsAreThoseOfScenesEditedByHand)
     for (const std::string effect :
          {"uplift", "acoustic water", "bottom absorption", "vertical motion", "rock flexibility"})
         EXPECT_NE(row(j, effect)["change_mm"].get<double>(), 0.0) << effect;
-    EXPECT_EQ(row(j, "vertical motion", 1)["change_mm"].get<double>(), 0.0); // the second record has none
+    for (const std::size_t late : {2u, 3u}) // both polarities of the record without a vertical component
+        EXPECT_EQ(row(j, "vertical motion", late)["change_mm"].get<double>(), 0.0); // the second record has none
 }
 
 // Rows of the rigid table against `damslip screen` on scenes edited by hand.
