@@ -117,9 +117,10 @@ void check_screen(Checker& check, const json& j, int code)
                      "screen: slip {} mm above the largest", judged);
         check.demand(row["upstream_slip_mm"].get<double>() >= 0, "screen: negative upstream slip");
     }
-    if (j.contains("rocking_block"))
-        for (const json& row : j["rocking_block"])
-            if (const auto status = status_of(check, "screen", row)) answered = answered && is_answer(*status);
+    for (const char* table : {"rocking_block", "elastic"})
+        if (j.contains(table))
+            for (const json& row : j[table])
+                if (const auto status = status_of(check, "screen", row)) answered = answered && is_answer(*status);
     check.demand(answered || code == exit_no_answer, "screen: exit code {} with a run that is no answer", code);
     check.demand(!answered || !all_slips || code == exit_ok, "screen: exit code {} although all runs are answers",
                  code);
