@@ -66,7 +66,7 @@ ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions
             water_ = std::make_shared<const ReducedWater>(reduce_water(*water, kept.face, highest_frequency()));
             if (!water_->report.passed()) why_not_ = water_->missed_gate();
         } catch (const std::runtime_error& error) {
-            why_not_ = fmt::format("The acoustic water cannot be reduced, {}: run without --reduced.", error.what());
+            why_not_ = fmt::format("The acoustic water cannot be reduced ({}): run  damslip fe  without --reduced.", error.what());
         }
     }
     if (!why_not_.empty()) return;

@@ -80,6 +80,8 @@ public:
     ReducedResult run(const GroundMotion& motion, const std::optional<Contact>& contact = {},
                       const std::optional<int>& halvings = {},
                       TruncationEstimate estimate = TruncationEstimate::made) const;
+    /// Why no run has an answer: a sentence for the user; empty: there is a model.
+    const std::string& why_not() const { return why_not_; }
 
 private:
     /// What the time loop reads of a motion.

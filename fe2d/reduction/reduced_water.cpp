@@ -59,6 +59,10 @@ public:
                  slow < 0.5 * highest_ / count; slow *= 2.0)
                 frequencies_.push_back(slow);
         for (int k = 1; k <= count; ++k) frequencies_.push_back(highest_ * k / count);
+        const Index snapshots = 2 * loads_.cols() * static_cast<Index>(frequencies_.size() + 2);
+        if (snapshots > options_.largest_snapshots)
+            throw std::runtime_error(fmt::format("its waves are so short that it takes {} snapshots, {} are allowed",
+                                                 snapshots, options_.largest_snapshots));
         for (const double frequency : frequencies_) add_snapshots(frequency, growth * frequency, loads_);
         add_snapshots(1.3 * highest_, 0.3 * highest_, loads_); // blows are short
         add_snapshots(2.0 * highest_, highest_, loads_);

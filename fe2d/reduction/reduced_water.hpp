@@ -14,6 +14,7 @@ struct WaterReductionOptions {
     int degrees = 8;        ///< polynomials along the face that it is shaken by
     int checks = 5;         ///< frequencies of the gate
     int largest_rounds = 6; ///< of adding snapshots where the gate is failed
+    int largest_snapshots = 3000; ///< of the first round; their basis costs the cube of them
 };
 
 /// Acoustic water of a dam that slides (WaterBody) on a few shapes φ = V y, by rows of CoupledSystem:
@@ -47,7 +48,7 @@ struct ReducedWater {
 ///
 /// @param motions  φᵀH of the dam's motions, one row each (DamModes::face)
 /// @param highest  ω up to which pressures are to be right [rad/s]
-/// @throws std::runtime_error when the water cannot be factorised
+/// @throws std::runtime_error when the water cannot be factorised, or takes more than the largest number of snapshots
 ReducedWater reduce_water(const WaterBody& water, const Eigen::MatrixXd& motions, double highest,
                           const WaterReductionOptions& options = {});
 

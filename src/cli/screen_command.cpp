@@ -73,9 +73,9 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
         spectrum_of_elements(arguments.spectrum, spectra, given, ready, streams);
     Screening s = run_screening(ready, arguments.jobs,
                                 arguments.rocking ? RockingRuns::always : RockingRuns::where_sliding_does_not_hold);
-    if (!arguments.rigid_only && has_elastic_dam(ready)) {
+    if (!arguments.rigid_only) {
         TerminalWatch watch(streams);
-        s.elastic = screen_elastic(ready, arguments.jobs, watch);
+        add_elastic_dam(ready, arguments.jobs, watch, s);
     }
     for (std::string& note : screen_notes(ready)) s.warnings.push_back(std::move(note));
     const ScreenReportInput in{

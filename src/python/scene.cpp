@@ -24,7 +24,7 @@ struct ScreenResult final : Result {
         : ready(std::move(made)), screening(run_screening(ready, jobs, rocking))
     {
         Watch silent;
-        if (!rigid_only && has_elastic_dam(ready)) screening.elastic = screen_elastic(ready, jobs, silent);
+        if (!rigid_only) add_elastic_dam(ready, jobs, silent, screening);
         for (std::string& note : pages::screen_notes(ready)) screening.warnings.push_back(std::move(note));
     }
 

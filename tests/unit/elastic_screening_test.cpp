@@ -76,6 +76,25 @@ TEST_F(ElasticScreening, TheLargerSlipDecides)
     EXPECT_EQ(screened({dam(28.0)})["verdict"].get<std::string>().find("undecided"), 0u); // within ±
 }
 
+/// A dam that slides without an earthquake has no elastic answer to wait for. Light, soft water whose waves are a few
+/// centimetres long would take minutes to reduce: the reason is given instead.
+TEST_F(ElasticScreening, RunsNoDamThatDoesNotStandAndNoWaterThatCannotBeReduced)
+{
+    const json fallen = screened({dam(10.0), "--friction", "0.5"});
+    EXPECT_FALSE(fallen.contains("elastic"));
+    EXPECT_EQ(fallen["verdict"], "FAIL");
+
+    std::string text = read_file(dam(10.0));
+    const std::string level = "level_m = 60";
+    const std::size_t at = text.find(level);
+    ASSERT_NE(at, std::string::npos);
+    text.insert(at + level.size(), ", model = \"acoustic\", density_kg_m3 = 80000, bulk_modulus_MPa = 100");
+    text.replace(at, level.size(), "level_m = 20"); // stands in spite of the density
+    write_file(folder / "dam.toml", text);
+    const json wavy = screened({(folder / "dam.toml").string()});
+    EXPECT_NE(wavy["elastic_not_run"].get<std::string>().find("snapshots"), std::string::npos) << wavy["elastic_not_run"];
+}
+
 TEST_F(ElasticScreening, LeavesTheRigidBlockAsItWas)
 {
     EXPECT_EQ(screened({dam(50.0)})["displacements"], screened({dam(50.0), "--rigid-only"})["displacements"]);

@@ -125,6 +125,7 @@ public:
     const PressureProfile& uplift() const { return options_.uplift; }
     const std::vector<sliding::Equilibrium>& combinations() const { return combinations_; } ///< Ready::combinations()
     std::size_t whole() const;
+    const std::string& why_not() const { return model_->why_not(); } ///< no run of this model has an answer; else empty
 
     using TakeRun = std::function<void(ReducedRecord& run)>;
     std::vector<ReducedRecord> run(const TakeRun& take = {});

@@ -138,7 +138,15 @@ TiedRun TiedRuns::run(const GroundMotion& motion) const
     };
     const Stopwatch start;
     const TiedScheme chosen = tied_scheme(scene, motion, options);
-    run.history = integrate_by(chosen.scheme, models_.moving(), motion, options);
+    try {
+        run.history = integrate_by(chosen.scheme, models_.moving(), motion, options);
+    } catch (const InputError& error) { // what the integrator refuses is a key of the scene
+        watch_.end();
+        std::vector<Diagnostic> named = error.diagnostics();
+        for (Diagnostic& d : named)
+            if (d.file.empty()) d.file = scene.file;
+        throw InputError(std::move(named));
+    }
     watch_.end();
     run.seconds = start.seconds();
     if (!chosen.reason.empty()) run.notes.push_back(chosen.reason);

@@ -14,11 +14,6 @@ Verdict ElasticScreening::verdict(const std::optional<double>& allowable) const
     return verdict == Verdict::pass && !why_not.empty() ? Verdict::undecided : verdict;
 }
 
-bool has_elastic_dam(const Ready& ready)
-{
-    return !ready.given.wedge && !ready.given.section.rock_slope && !ready.records().empty();
-}
-
 ElasticScreening screen_elastic(const Ready& ready, int jobs, Watch& watch)
 {
     ElasticScreening out;
@@ -33,6 +28,8 @@ ElasticScreening screen_elastic(const Ready& ready, int jobs, Watch& watch)
         const Ready elastic =
             prepare(std::move(given), Method::finite_elements, ready.pairs, {.seepage = ready.seepage, .stop = watch.stop()});
         ReducedRuns all(elastic, {.mesh_error = false, .jobs = jobs}, watch);
+        out.why_not = all.why_not();
+        if (!out.why_not.empty()) return out;
         all.run([&](ReducedRecord& run) {
             out.runs.push_back(as_contact_run(run));
             out.runs.back().fe.history = {};

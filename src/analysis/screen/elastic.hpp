@@ -19,9 +19,6 @@ struct ElasticScreening {
     Verdict verdict(const std::optional<double>& allowable) const;
 };
 
-/// Is there an elastic dam to run: a section that is no rock slope, on a base, with records?
-bool has_elastic_dam(const Ready& ready);
-
 /// Runs the dam of a screening under its records. What cannot be run is said in `why_not`, never thrown.
 /// @param ready  for the rigid block; its records are used again
 /// @throws Interrupted

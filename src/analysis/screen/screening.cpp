@@ -398,6 +398,14 @@ StatusCount statuses_of(const Screening& screening)
     return count;
 }
 
+void add_elastic_dam(const Ready& ready, int jobs, Watch& watch, Screening& screening)
+{
+    if (screening.slips.empty() || !screening.slips.front().of_dam) return;
+    const BaseRow& base = screening.bases.front();
+    if (base.model.state != sliding::StaticState::at_rest || overturns(base)) return;
+    screening.elastic = screen_elastic(ready, jobs, watch);
+}
+
 bool overturns(const BaseRow& base)
 {
     return base.model.state == sliding::StaticState::at_rest &&

@@ -107,7 +107,7 @@ struct Screening {
     double bond_share = 0.0; ///< c A' over c A' + mu N' before the earthquake [-]
     std::vector<SlipRow>
         slips_without_bond; ///< the rows once more with c = 0, where bond_share is above judged_bond_share
-    std::optional<ElasticScreening> elastic; ///< none: not asked for, or no has_elastic_dam()
+    std::optional<ElasticScreening> elastic; ///< none: not asked for, or no dam to run, see add_elastic_dam()
     Planes planes; ///< of scenes with [lifts] or [[seam]]; else without rows
     std::vector<RegressionRow> regressions;
     std::vector<SetStatistics> statistics;
@@ -158,6 +158,10 @@ enum class FlexibleRuns { as_the_scene_says, none };
 Screening run_screening(const Ready& ready, int jobs = 0,
                         RockingRuns rocking = RockingRuns::where_sliding_does_not_hold,
                         FlexibleRuns flexible = FlexibleRuns::as_the_scene_says);
+
+/// Runs the elastic dam beside the rigid block where there is one to run: no wedge, no rock slope, records, and a block that
+/// stands before the earthquake. @param ready  that `screening` was made of @throws Interrupted
+void add_elastic_dam(const Ready& ready, int jobs, Watch& watch, Screening& screening);
 
 /// The resultant of the static loads acts outside the base: it tips without any earthquake.
 bool overturns(const BaseRow& base);
