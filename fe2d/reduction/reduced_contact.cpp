@@ -223,7 +223,7 @@ std::optional<double> ReducedRun::truncation_error(const Motion& motion, const S
         coarsest.parts = 1 << motion.halvings.value_or(0);
         Strength strength(start.contact, model_->plane());
         strength.follow(start.rest);
-        ReducedResult result;
+        RunResult result;
         shake(coarsest, *systems.reference, strength, start.rest, nullptr, result);
         if (result.status == Status::interrupted) return std::nullopt;
         const double to_more = largest_difference(first, result.history.slip);
@@ -236,7 +236,7 @@ std::optional<double> ReducedRun::truncation_error(const Motion& motion, const S
     const auto slips = [&](const ReducedModel& model) {
         Strength strength(start.contact, coarse_.plane());
         strength.follow(memory);
-        ReducedResult result;
+        RunResult result;
         shake(coarse_motion, model, strength, memory, nullptr, result);
         interrupted = interrupted || result.status == Status::interrupted;
         return result.history.slip;

@@ -20,7 +20,7 @@ namespace {
 constexpr int coarse_pairs = 22; ///< of the plane of the estimate
 
 /// @param length  of the base [m]
-std::string message_of(const ReducedResult& r, double length)
+std::string message_of(const RunResult& r, double length)
 {
     switch (r.status) {
     case Status::not_resolved:
@@ -37,7 +37,7 @@ std::string message_of(const ReducedResult& r, double length)
         return fmt::format(
             "Largest slip {:.4g} mm ± {:.2g} mm with steps of {:.4g} s: more than time.slip_tolerance allows. Give a "
             "smaller time.dt_s, or a larger slip_tolerance.",
-            1e3 * r.max_slip, 1e3 * r.step_error, r.dt);
+            1e3 * r.max_slip, 1e3 * r.slip_error, r.dt);
     default:
         return fmt::format("Slip {:.4g} mm{} with {} elastic modes.", 1e3 * r.slip,
                            std::isnan(r.truncation_error) ? "" : fmt::format(" ± {:.2g} mm", 1e3 * r.truncation_error),
@@ -102,7 +102,7 @@ double ReducedRun::wanted(double largest_slip) const
     return scene_.time.slip_tolerance * std::max(largest_slip, options_.smallest_slip);
 }
 
-ReducedState ReducedRun::refine(Motion& motion, Strength& strength, const Start& start, ReducedResult& result,
+ReducedState ReducedRun::refine(Motion& motion, Strength& strength, const Start& start, RunResult& result,
                                 std::vector<double>& first_slips) const
 {
     const Strength at_start = strength;
@@ -121,18 +121,19 @@ ReducedState ReducedRun::refine(Motion& motion, Strength& strength, const Start&
         const bool was_self_excited = result.status == Status::self_excited;
         end = shake_with(k);
         slips.push_back({k, result.slip, largest_difference(coarser, result.history.slip)});
-        result.step_error = step_error(slips, strength.constant() ? contact_order : sudden_order);
-        if (result.step_error <= wanted(result.max_slip)) break;
+        result.slip_error = step_error(slips, strength.constant() ? contact_order : sudden_order);
+        if (result.slip_error <= wanted(result.max_slip)) break;
         if (was_self_excited && result.status == Status::self_excited) break; // both agree; there is no slip to refine
     }
     return end;
 }
 
-ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contact>& contact,
+RunResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contact>& contact,
                               const std::optional<int>& halvings, TruncationEstimate estimate) const
 {
-    ReducedResult result;
-    result.seconds.modes = seconds_;
+    RunResult result;
+    result.slip_error = std::numeric_limits<double>::quiet_NaN();
+    result.seconds.model = seconds_;
     if (!model_) {
         result.message = why_not_;
         return result;
@@ -159,13 +160,12 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
                 options_.contact, halvings ? halvings : scene_.time.substeps};
     std::vector<double> first;
     const ReducedState moved = refine(loop, strength, start, result, first);
-    result.pair_force = moved.contact.force;
     result.pair_slip = moved.contact.slip - start.rest.slip;
     result.pair_opening = moved.contact.opening;
     const bool over = result.status == Status::at_rest || result.status == Status::sliding_at_end;
     const double length = structure.plane().length();
-    if (over && result.step_error > wanted(result.max_slip)) result.status = Status::tolerance_missed;
-    const double open = std::isfinite(result.step_error) ? result.step_error : 0.0;
+    if (over && result.slip_error > wanted(result.max_slip)) result.status = Status::tolerance_missed;
+    const double open = std::isfinite(result.slip_error) ? result.slip_error : 0.0;
     if (over && result.max_slip - open > length) result.status = Status::runs_away;
     const bool estimated = estimate == TruncationEstimate::made && result.status != Status::self_excited; // no slip
     const std::optional<double> error =
@@ -176,7 +176,7 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
 
     clock = Stopwatch();
     ContactMemory end = start.rest;
-    end.force = result.pair_force;
+    end.force = moved.contact.force;
     end.slip = start.rest.slip + result.pair_slip;
     end.opening = result.pair_opening;
     const auto load = [&](const PressureProfile& uplift) {
@@ -195,22 +195,25 @@ using Eigen::Index;
 
 namespace {
 
-void record(const ReducedContact& dynamics, ReducedHistory& history)
+void record(const ReducedContact& dynamics, const GroundAcceleration& ground, RunHistory& history)
 {
     const ContactMemory& contact = dynamics.state().contact;
     const Index m = contact.opening.size();
     history.time.push_back(dynamics.state().time);
+    history.ground_h.push_back(ground.h);
+    history.ground_v.push_back(ground.v);
     history.slip.push_back(dynamics.mean_slip());
     history.crest_x.push_back(dynamics.crest());
     history.normal_force.push_back(contact.force.head(m).sum());
     history.shear_force.push_back(-contact.force.tail(m).sum());
 }
 
-void reserve(ReducedHistory& history, std::size_t rows)
+void reserve(RunHistory& history, std::size_t rows)
 {
     SlideHistory& slide = history.slide;
     for (std::vector<double>* series :
-         {&history.time, &history.slip, &history.crest_x, &history.normal_force, &history.shear_force,
+         {&history.time, &history.ground_h, &history.ground_v, &history.slip, &history.crest_x, &history.normal_force,
+          &history.shear_force,
           &slide.thrust_over_friction, &slide.hops, &slide.unloaded_share, &slide.rate})
         series->reserve(rows);
 }
@@ -218,7 +221,7 @@ void reserve(ReducedHistory& history, std::size_t rows)
 } // namespace
 
 ReducedState ReducedRun::shake(const Motion& motion, const ReducedModel& model, Strength& strength,
-                               const ContactMemory& rest, const StageResult* balance, ReducedResult& result) const
+                               const ContactMemory& rest, const StageResult* balance, RunResult& result) const
 {
     const double dt = motion.dt;
     const int parts = motion.parts;
@@ -231,7 +234,7 @@ ReducedState ReducedRun::shake(const Motion& motion, const ReducedModel& model, 
         watch->add(probe->instant(now.time, now.contact, strength.law(), dynamics.friction()));
     };
     const auto add_row = [&] {
-        record(dynamics, result.history);
+        record(dynamics, ground.at(dynamics.state().time), result.history);
         if (watch) watch->add_row(result.history.slide);
     };
     const auto record_steps = static_cast<long>(std::ceil(ground.duration() / dt - 1e-9));

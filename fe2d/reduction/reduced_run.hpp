@@ -5,53 +5,11 @@
 #include "fe2d/run/earthquake_run.hpp"
 #include "fe2d/run/ground_input.hpp"
 
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
 
 namespace damslip::fe2d {
-
-/// Values at the record's steps and in the run-out, the start included; slips and crest since the static state.
-struct ReducedHistory {
-    std::vector<double> time;         ///< [s]
-    std::vector<double> slip;         ///< area mean, positive downstream [m]
-    std::vector<double> crest_x;      ///< relative to the ground, downstream [m]
-    std::vector<double> normal_force; ///< Σλ_n [N/m]
-    std::vector<double> shear_force;  ///< on the dam, resisting downstream slip: -Σλ_t [N/m]
-    SlideHistory slide;               ///< as of the full run; empty on the plane of the estimate
-};
-
-struct ReducedSeconds {
-    double modes = 0.0; ///< modes and residual flexibility: once per model
-    double statics = 0.0;
-    double dynamics = 0.0; ///< estimate and contact included
-    double contact = 0.0;  ///< of the dynamics
-};
-
-struct ReducedResult {
-    Status status = Status::not_resolved;
-    std::string message;             ///< one sentence with the numbers
-    std::vector<StageResult> stages; ///< before the earthquake, by the full model
-    StageResult after;               ///< after it, by the full model
-    ReducedHistory history;
-    double slip = 0.0;     ///< final, area mean, since the static state [m]
-    double max_slip = 0.0; ///< largest |slip| of all steps on the way [m]
-    double truncation_error =
-        0.0; ///< estimate of the largest change of the slip, at any time, by the modes left out [m]; 0: none are;
-             ///< NaN: left out, or interrupted
-    double step_error = std::numeric_limits<
-        double>::quiet_NaN();       ///< estimate of what the time step leaves open, at any time [m]; NaN: not estimated
-    int modes = 0;                  ///< elastic modes kept; the three rigid ones always are
-    double highest_frequency = 0.0; ///< of them [Hz]
-    int halvings = 0;
-    double dt = 0.0;       ///< [s]
-    double end_time = 0.0; ///< [s]
-    RunOutFigures run_out; ///< as of the full run, but without ΔE: no ledger is kept
-    DynamicCounts counts;
-    Eigen::VectorXd pair_force, pair_slip, pair_opening; ///< at the end: λ [N/m], 2m; [m]; [m]
-    ReducedSeconds seconds;
-};
 
 constexpr int default_modes = 12; ///< elastic modes kept when nothing is said: slip within 1 % of the full run's
 
@@ -75,9 +33,10 @@ public:
     /// @param modes  elastic modes to keep, >= 1; all when there are no more
     ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions options, int modes = default_modes);
 
-    /// As EarthquakeRun::run. @param halvings  in place of those of options and scene: uniform steps Δt/2^halvings; the slip
+    /// As EarthquakeRun::run, without an energy ledger: stages and the state after the earthquake by the full model, history of slip,
+    /// crest, ground and forces. RunResult::seconds.model is that of modes and residual flexibility. @param halvings  in place of those of options and scene: uniform steps Δt/2^halvings; the slip
     /// then has no estimate of their error
-    ReducedResult run(const GroundMotion& motion, const std::optional<Contact>& contact = {},
+    RunResult run(const GroundMotion& motion, const std::optional<Contact>& contact = {},
                       const std::optional<int>& halvings = {},
                       TruncationEstimate estimate = TruncationEstimate::made) const;
     /// Why no run has an answer: a sentence for the user; empty: there is a model.
@@ -110,11 +69,11 @@ private:
     /// @param balance  the run is watched for sliding by itself; null: it is not
     /// @returns the state at the end
     ReducedState shake(const Motion& motion, const ReducedModel& model, Strength& strength, const ContactMemory& rest,
-                       const StageResult* balance, ReducedResult& result) const;
+                       const StageResult* balance, RunResult& result) const;
     /// Passes with halved steps until the slip holds still, or the one pass that is asked for.
     /// @param first  gets the slips of the first pass
     /// @returns the state at the end of the last one
-    ReducedState refine(Motion& motion, Strength& strength, const Start& start, ReducedResult& result,
+    ReducedState refine(Motion& motion, Strength& strength, const Start& start, RunResult& result,
                         std::vector<double>& first) const;
     double wanted(double largest_slip) const; ///< error that the scene allows [m]
     /// @param first  slips of the run's first pass

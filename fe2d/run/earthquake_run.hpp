@@ -87,6 +87,11 @@ struct RunResult {
     double slip = 0.0;             ///< final, area mean, since the static state [m]
     double max_slip = 0.0;         ///< largest |slip| of all steps on the way, between the rows of the history too [m]
     double slip_error = 0.0;       ///< estimate of what the time step leaves open, at any time [m]; NaN: not estimated
+    // Of a run on few modes of the dam (ReducedRun).
+    int modes = 0;                  ///< elastic modes kept, the three rigid ones apart; 0: the whole dam
+    double highest_frequency = 0.0; ///< of them [Hz]
+    double truncation_error = 0.0;  ///< estimate of the largest change of the slip, at any time, by the modes left out
+                                    ///< [m]; NaN: not estimated
     std::vector<EventSlip> events; ///< of a sequence, as far as they were reached; else empty
     std::size_t events_left = 0;   ///< not reached
     int halvings = 0;              ///< the step was dt / 2^halvings

@@ -164,15 +164,16 @@ class Scene:
         """Rigid block and regressions, as `damslip screen`. jobs: threads, 0: all cores."""
         return self._opened._screen(jobs, rocking, rigid_only)
 
-    def fe(self, polarity=None, mesh_error=True, spread=False, progress=None):
+    def fe(self, polarity=None, mesh_error=True, spread=False, reduced=False, modes=None, progress=None):
         """Finite elements, all records, as `damslip fe`.
 
-        polarity: 1 or -1 alone; None: both, or the scene's. mesh_error, spread: as --no-mesh-error and --spread.
+        polarity: 1 or -1 alone; None: both, or the scene's. mesh_error, spread, reduced, modes: as --no-mesh-error, --spread,
+        --reduced and --modes.
         progress(label, done, total) is called some twenty times a second. Raises NotConverged; Interrupted on Ctrl-C.
         """
         if polarity not in (None, 1, -1):
             raise UsageError(f"polarity={polarity!r} is not allowed: 1, -1, or None for both")
-        return _whole(_core._fe(self._opened, polarity, mesh_error, spread, progress))
+        return _whole(_core._fe(self._opened, polarity, mesh_error, spread, reduced, modes, progress))
 
     def modes(self, count=None, transfer=False, progress=None):
         """Natural frequencies and damping, as `damslip modes`."""

@@ -169,10 +169,7 @@ int run_one(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& 
             Diagnostic{a.inputs.scene.string(), 0, 0, fmt::format("--rung {} is refused: {}", a.rung, result.remark),
                        "a model level that this scene admits", "leave --rung out: the table lists those that run"});
     const std::vector<MotionName> motions = motion_names(loaded.scene, *loaded.records);
-    if (streams.form == Form::json)
-        streams.out << one_rung_json(result, motions).dump(2) << "\n";
-    else
-        put_answer(one_rung_answer(result, motions), "--out DIR", streams);
+    put_answer(one_rung_answer(result, motions), "--out DIR", streams);
     if (!a.out.empty()) {
         write_file(a.out / "scene.toml", resolved_toml(scene_of(loaded.scene, rung)));
         if (!streams.quiet && rung.family == RungFamily::finite_elements)
@@ -246,19 +243,16 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
     const Judgement judgement = judge_rungs(results, a.tolerance);
     const std::vector<std::string> messages = messages_of(facts, loaded, results, watch.stop_asked());
     const std::string command = judgement.choice ? command_of(a, results[*judgement.choice].rung) : "";
-    const AccuracyReportInput answer{loaded.scene, *loaded.records, results, judgement, a.tolerance, command, messages};
-    const std::string json = accuracy_json(answer).dump(2) + "\n";
-    if (streams.form == Form::json)
-        streams.out << json;
-    else
-        put_answer(accuracy_answer(answer), "--out DIR", streams);
-    const auto page = [&] { return page_html(accuracy_page(answer)); };
+    const AccuracyReportInput in{loaded.scene, *loaded.records, results, judgement, a.tolerance, command, messages};
+    const Answer answer = accuracy_answer(in);
+    put_answer(answer, "--out DIR", streams);
+    const auto page = [&] { return page_html(accuracy_page(in)); };
     const std::string figure = cost_figure(results, judgement, a.tolerance, figure_title(loaded.scene, *loaded.records),
                                            FigureStyle::standalone);
     if (!a.svg.empty() && !figure.empty()) write_file(a.svg, figure);
     if (!a.out.empty()) {
         write_csv(a.out, loaded.scene, results, a.tolerance);
-        write_file(a.out / "summary.json", json);
+        answer.write(a.out, {});
         write_file(a.out / "scene_resolved.toml", resolved_toml(loaded.scene));
         if (!figure.empty()) write_file(a.out / "accuracy.svg", figure);
         write_rung_scenes(a.out, loaded.scene, results);
@@ -372,16 +366,11 @@ int accuracy_of_probability(const AccuracyArguments& a, const Streams& streams)
                                 study.input.intensity.text,
                                 study.input.intensity.level_unit,
                                 study.input.intensity.level_unit_text};
-    const std::string json = interval_cost_json(view).dump(2) + "\n";
-    if (streams.form == Form::json)
-        streams.out << json;
-    else
-        put_answer(interval_cost_answer(view), "--out DIR", streams);
+    const Answer answer = interval_cost_answer(view);
+    put_answer(answer, "--out DIR", streams);
     const auto page = [&] { return page_html(interval_cost_page(view)); };
     if (!a.out.empty()) {
-        write_file(a.out / "accuracy.csv",
-                   csv(interval_cost_table(view), {fmt::format("scene {}", study.scene.file.string())}));
-        write_file(a.out / "summary.json", json);
+        answer.write(a.out, {fmt::format("scene {}", study.scene.file.string())});
         write_file(a.out / "report.html", page());
         name_report(a.out / "report.html", streams);
     }

@@ -27,7 +27,9 @@ bool put_json_document(const Streams& streams, const std::string& what,
 void put_answer(pages::Answer answer, const std::string& files, const Streams& streams, std::ostream* to)
 {
     std::ostream& out = to ? *to : streams.out;
-    if (streams.form == Form::full) {
+    if (streams.form == Form::json) {
+        out << answer.json().dump(2) << "\n";
+    } else if (streams.form == Form::full) {
         out << answer.full();
     } else if (streams.quiet) {
         out << answer.line();

@@ -55,8 +55,8 @@ std::span<const Command> commands();
 bool put_json_document(const Streams& streams, const std::string& what,
                        std::initializer_list<std::pair<const char*, std::string>> members);
 
-/// The answer, in the form that was asked for: in full, in brief with the remarks that waited for it, or its line alone. JSON is the
-/// command's own. @param files  as of Answer::brief() @param to  null: standard output
+/// The answer, in the form that was asked for: as a JSON object, in full, in brief with the remarks that waited for it, or its line
+/// alone. @param files  as of Answer::brief() @param to  null: standard output
 void put_answer(pages::Answer answer, const std::string& files, const Streams& streams, std::ostream* to = nullptr);
 
 /// Flags that several commands have. Only the files that declare flags include it: CLI11 is slow to compile.

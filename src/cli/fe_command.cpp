@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
 
@@ -45,26 +46,26 @@ struct FeArguments {
 
 FeOptions fe_options(const FeArguments& arguments)
 {
-    return {arguments.polarity,  arguments.mesh_error,
-            arguments.reports(), arguments.frames.value_or(0),
-            arguments.modes,     {},
-            arguments.jobs};
+    return {.polarity = arguments.polarity,
+            .mesh_error = arguments.mesh_error,
+            .pair_histories = arguments.reports(),
+            .frames = arguments.frames.value_or(0),
+            .reduced = arguments.reduced,
+            .modes = arguments.modes,
+            .jobs = arguments.jobs};
 }
 
 /// The answer on standard output, and in the folder, if there is one, beside what the runs left there; the report on paper, if asked
 /// for. The response spectrum's tables and section stand at the end.
 /// @param spectrum  null: not asked for @param page  made where a report is wanted
-void put_answer(FeAnswer answer, const FeArguments& arguments, const Scene& scene, const SpectrumLevel* spectrum,
+void put_answer(Answer answer, const FeArguments& arguments, const Scene& scene, const SpectrumLevel* spectrum,
                 const FieldSeries& fields, const std::function<Page()>& page, const Streams& streams)
 {
     if (spectrum) {
-        answer.json["response_spectrum"] = spectrum_json(*spectrum);
-        answer.text += "\n" + spectrum_text(*spectrum);
+        answer.set("response_spectrum", spectrum_json(*spectrum));
+        answer += "\n" + spectrum_text(*spectrum);
     }
-    if (streams.form == Form::json)
-        streams.out << answer.json.dump(2) << "\n";
-    else
-        put_answer(answer.text, "--out DIR", streams);
+    put_answer(answer, "--out DIR", streams);
     if (!arguments.reports()) return;
     Page report = page();
     if (spectrum) report.sections.push_back(spectrum_section(*spectrum));
@@ -97,7 +98,7 @@ FeOptions options_with_state(const FeArguments& arguments, const Ready& ready)
 }
 
 /// `fe`: the dam slides, opens and rocks on its base. Static stages, earthquake with exact Coulomb contact, run-out, static state after
-/// it; the rigid block's slip beside it.
+/// it; the rigid block's slip beside it. On few modes of the dam (--reduced) with an estimate of what the reduction changes.
 int run_contact(const FeArguments& arguments, const Ready& prepared, const SpectrumLevel* spectrum, const Streams& streams)
 {
     TerminalWatch watch(streams);
@@ -105,7 +106,7 @@ int run_contact(const FeArguments& arguments, const Ready& prepared, const Spect
     const Ready& ready = all.ready();
     const fe2d::EarthquakeRun& model = all.model();
     const FeReport::Input shared{ready.scene, ready.plan, ready.records(), model, all.rigid(), all.uplift(),
-                                 all.combinations()};
+                                 all.combinations(), arguments.reduced};
     FieldSeries fields(arguments.out, model.model());
     std::optional<FeReport> page;
     if (arguments.reports()) page.emplace(shared);
@@ -130,25 +131,6 @@ int run_contact(const FeArguments& arguments, const Ready& prepared, const Spect
         contact_answer(shared, runs, messages, spread), arguments, ready.scene, spectrum, fields,
         [&] { return page->page(runs, messages, spread); }, streams);
     return runs.size() == all.whole() ? exit_code_of(runs) : exit_no_answer;
-}
-
-/// `fe --reduced`: static stages by the full model, earthquake on few modes of the dam; the slip with an estimate of what the reduction
-/// changes.
-int run_reduced(const FeArguments& arguments, const Ready& ready, const SpectrumLevel* spectrum, const Streams& streams)
-{
-    TerminalWatch watch(streams);
-    ReducedRuns all(ready, fe_options(arguments), watch);
-    const std::vector<ReducedRecord> runs = all.run([&](const ReducedRecord& run) {
-        if (!arguments.out.empty()) write_reduced_history(arguments.out, ready.scene, ready.plan.scene_hash, run);
-    });
-    std::vector<std::string> messages = reduced_messages(ready.scene, runs);
-    for (std::string& message : radiating_messages(ready.scene, all.full())) messages.push_back(std::move(message));
-    const ReducedReportInput in{ready.scene,  ready.plan, ready.records(), all.full(), all.rigid(),
-                                all.uplift(), runs,       messages,        all.combinations()};
-    const FieldSeries no_fields(arguments.out, all.full().model()); // a reduced run keeps no shapes
-    put_answer(
-        reduced_answer(in), arguments, ready.scene, spectrum, no_fields, [&] { return reduced_page(in); }, streams);
-    return runs.size() == all.whole() ? exit_code_of(as_contact_runs(runs)) : exit_no_answer;
 }
 
 /// `fe --base tied`: static stages and the linear earthquake run of a dam bonded to its base.
@@ -203,7 +185,6 @@ int fe(const FeArguments& arguments, const Streams& streams)
     if (ready.dam_period)
         streams.remark(fmt::format("added mass for the dam's own period {:.4g} s", 1 / ready.dam_period->frequency));
     const std::shared_ptr<const SpectrumLevel> found = find_spectrum_level(arguments.spectrum, spectra, ready);
-    if (arguments.reduced) return run_reduced(arguments, ready, found.get(), streams);
     return arguments.base == "tied" ? run_tied(arguments, ready, found.get(), streams)
                                     : run_contact(arguments, ready, found.get(), streams);
 }

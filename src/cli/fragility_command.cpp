@@ -137,7 +137,8 @@ void write_samples(const std::filesystem::path& file, const FragilityView& view,
     writer.finish();
 }
 
-void write_files(const std::filesystem::path& out, const FragilityView& view, const SweepIdentity& identity)
+void write_files(const std::filesystem::path& out, const FragilityView& view, const Answer& answer,
+                 const SweepIdentity& identity)
 {
     const std::vector<std::string> comments = {"damslip " + identity.version + " fragility", "scene " + identity.scene,
                                                "runs " + hash_of(identity)};
@@ -145,7 +146,7 @@ void write_files(const std::filesystem::path& out, const FragilityView& view, co
     write_file(out / "fragility.csv", csv(fragility_table(view), comments));
     if (const Table rates = rate_part_table(view); !rates.rows.empty())
         write_file(out / "hazard.csv", csv(rates, comments));
-    write_file(out / "summary.json", fragility_json(view).dump(2) + "\n");
+    answer.write(out, {});
     write_file(out / "report.html", page_html(fragility_page(view)));
     if (const std::string usace = fragility_usace(view); !usace.empty()) write_file(out / "usace.json", usace);
     if (const std::string nrml = fragility_nrml(view); !nrml.empty()) write_file(out / "fragility.xml", nrml);
@@ -197,11 +198,9 @@ int finish_fragility(const FragilityArguments& a, const FragilityStudy& study, c
     const FragilityExtras extras{static_cast<std::size_t>(a.rows), a.jobs};
     const FragilityAnswer answer = answer_fragility(study, plan, runs, extras, watch, conditioned);
     const FragilityView view = view_of(study, plan, runs, answer);
-    if (streams.form == Form::json)
-        streams.out << fragility_json(view).dump(2) << "\n";
-    else
-        put_answer(fragility_answer(view), "--out DIR", streams);
-    if (!a.out.empty()) write_files(a.out, view, fragility_identity(plan, study.text, study.method.id));
+    const Answer shown = fragility_answer(view);
+    put_answer(shown, "--out DIR", streams);
+    if (!a.out.empty()) write_files(a.out, view, shown, fragility_identity(plan, study.text, study.method.id));
     if (!a.pdf.empty()) {
         print_pdf(page_html(fragility_page(view)), a.pdf);
         name_report(a.pdf, streams);

@@ -43,10 +43,7 @@ int modes(const ModesArguments& arguments, const Streams& streams)
     need_section(given, "damslip modes", "a wedge is rigid; damslip screen SCENE gives its slip");
     const Ready ready = prepare(given, Method::finite_elements, {.stop = streams.stop});
     const ModesResult result = compute_modes(ready, {arguments.count, arguments.frequency_response});
-    if (streams.form == Form::json)
-        streams.out << modes_json(given, result).dump(2) << "\n";
-    else
-        put_answer(modes_answer(given, result), arguments.out.empty() ? "" : "--out DIR", streams);
+    put_answer(modes_answer(given, result), arguments.out.empty() ? "" : "--out DIR", streams);
     if (!arguments.out.empty()) write_modes(arguments.out, given, result);
     return result.complete() ? exit_ok : exit_no_answer;
 }
@@ -114,22 +111,14 @@ int mesh(const MeshArguments& arguments, const Streams& streams)
         write_file(arguments.out, fe2d::gmsh_text(fe2d::export_mesh(corners, base_nodes(arguments, corners)), version));
         table.notes.push_back(fmt::format("written: {} (Gmsh {})", arguments.out.string(), arguments.format));
     }
-    if (streams.form == Form::json) {
-        auto j = json_header("mesh", given);
-        j["mesh"] = json_of(table);
-        j["notes"] = note_texts(given.notes);
-        streams.out << j.dump(2) << "\n";
-    } else {
-        Answer answer;
-        answer += given.title + "\n\n" + text(table);
-        answer.headline_in_brief({fmt::format("{} nodes, {} elements, edges from {:.3g} to {:.3g} m.", mesh.nodes.size(),
-                                              mesh.element_count(), quality.smallest_edge, quality.largest_edge)});
-        answer.add(table, {{"nodes", "quadrilaterals", "triangles", "dam_elements", "base_nodes_dam", "base_nodes_rock",
-                            "smallest_angle_deg", "smallest_scaled_jacobian"}},
-                   "");
-        for (const std::string& note : table.notes) answer.note_in_brief(note);
-        put_answer(std::move(answer), "--out FILE.msh", streams);
-    }
+    Answer answer(json_header("mesh", given));
+    answer += given.title + "\n\n";
+    answer.add("mesh", table, {.brief = true});
+    answer.headline_in_brief({fmt::format("{} nodes, {} elements, edges from {:.3g} to {:.3g} m.", mesh.nodes.size(),
+                                          mesh.element_count(), quality.smallest_edge, quality.largest_edge)});
+    answer.set("notes", note_texts(given.notes));
+    for (const std::string& note : table.notes) answer.note_in_brief(note);
+    put_answer(std::move(answer), "--out FILE.msh", streams);
     return exit_ok;
 }
 

@@ -59,7 +59,7 @@ void put(const Record& record, const RecordTarget& target, const std::string& wh
         auto j = json_header(what);
         j["out"] = target.out.string();
         j["sha256"] = sha256(text);
-        j["record"] = json_of(record_info_table({record}))[0];
+        j["record"] = json_of(record_info_table({record}, Checksums::shown))[0];
         streams.out << j.dump(2) << "\n";
     } else if (target.out.empty()) {
         streams.out << text;
@@ -108,19 +108,11 @@ int record_info(const RecordInfoArguments& arguments, const Streams& streams)
     std::vector<Record> records;
     for (const RecordInput& input : arguments.inputs)
         for (Record& record : channels_of(input)) records.push_back(std::move(record));
-    Table table = record_info_table(records);
-    if (streams.form == Form::json) {
-        auto j = json_header("record-info");
-        j["records"] = json_of(table);
-        j["notes"] = table.notes;
-        streams.out << j.dump(2) << "\n";
-        return exit_ok;
-    }
-    Answer answer;
-    answer.add(table, {{"name", "component", "samples", "dt_s", "duration_s", "pga_m_s2", "pgv_m_s", "arias_intensity_m_s",
-                        "duration_5_95_s", "mean_period_s"},
-                       "pga_m_s2"},
-               text(without_checksums(table)));
+    const Table table = record_info_table(records, Checksums::shown);
+    Answer answer(json_header("record-info"));
+    answer.add("records", table, {.text = false});
+    answer.add("for_people", record_info_table(records, Checksums::left_out), {.brief = true, .data = false});
+    answer.set("notes", table.notes);
     double peak = 0.0;
     for (const Record& record : records)
         for (const double a : record.acceleration) peak = std::max(peak, std::abs(a));
@@ -191,7 +183,7 @@ int record_scale(const RecordScaleArguments& arguments, const Streams& streams)
     return exit_ok;
 }
 
-Table record_spectrum_table(const Record& record, const RecordSpectrumArguments& a)
+records::ResponseSpectrum spectrum_of(const Record& record, const RecordSpectrumArguments& a)
 {
     if (!(a.ratio >= 0.0 && a.ratio <= 1.0))
         refuse_usage(fmt::format("--damping {} is not allowed.", a.ratio), "0 to 1", "5 % is 0.05");
@@ -201,33 +193,24 @@ Table record_spectrum_table(const Record& record, const RecordSpectrumArguments&
     if (a.count < 2 || a.count > 10000)
         refuse_usage(fmt::format("--count {} is not allowed.", a.count), "2 to 10000", "leave it out");
     const auto periods = records::logarithmic_periods(a.from, a.to, a.count);
-    return spectrum_table(record, records::response_spectrum(record.acceleration, record.dt, periods, a.ratio),
-                          a.ratio);
+    return records::response_spectrum(record.acceleration, record.dt, periods, a.ratio);
 }
 
 int record_spectrum(const RecordSpectrumArguments& arguments, const Streams& streams)
 {
     const Record record = read(arguments.input);
     remark(record, streams);
-    const Table table = record_spectrum_table(record, arguments);
+    const records::ResponseSpectrum spectrum = spectrum_of(record, arguments);
+    const Table table = spectrum_table(record, spectrum, arguments.ratio);
     if (!arguments.out.empty()) write_file(arguments.out, csv(table, {table.title}));
-    if (streams.form == Form::json) {
-        auto j = json_header("record-spectrum");
-        j["damping_ratio"] = arguments.ratio;
-        j["points"] = json_of(table);
-        streams.out << j.dump(2) << "\n";
-    } else if (arguments.out.empty()) {
-        Answer answer;
-        answer.add(table, {{"period_s", "pseudo_acceleration_m_s2", "absolute_acceleration_m_s2", "velocity_m_s"},
-                           "pseudo_acceleration_m_s2"},
-                   text(table));
-        const auto peak = std::max_element(table.rows.begin(), table.rows.end(), [](const auto& a, const auto& b) {
-            return std::get<double>(a[1]) < std::get<double>(b[1]);
-        });
-        answer.headline_in_brief({fmt::format("{}: at most {:.4g} m/s² (PSA), at a period of {:.4g} s.", table.title,
-                                              std::get<double>((*peak)[1]), std::get<double>((*peak)[0]))});
-        put_answer(std::move(answer), "--out FILE.csv", streams);
-    }
+    Answer answer(json_header("record-spectrum"));
+    answer.set("damping_ratio", arguments.ratio);
+    answer.add("points", table, {.brief = true});
+    const records::SpectrumPoint& peak =
+        *std::ranges::max_element(spectrum.points, {}, &records::SpectrumPoint::pseudo_acceleration);
+    answer.headline_in_brief({fmt::format("{}: at most {:.4g} m/s² (PSA), at a period of {:.4g} s.", table.title,
+                                          peak.pseudo_acceleration, peak.period)});
+    if (streams.form == Form::json || arguments.out.empty()) put_answer(std::move(answer), "--out FILE.csv", streams);
     return exit_ok;
 }
 

@@ -132,32 +132,22 @@ int record_suite(const RecordSuiteArguments& a, const Streams& streams)
         comments.insert(comments.end(), notes.begin(), notes.end());
         write_file(a.out, suite_list_text(lines, a.out, comments));
     }
-    if (streams.form == Form::json) {
-        auto j = json_header("record-suite");
-        for (std::size_t i = 0; i < tables.size(); ++i) j[names[i]] = json_of(tables[i]);
-        j["notes"] = notes;
-        j["out"] = a.out.string();
-        streams.out << j.dump(2) << "\n";
-    } else {
-        Answer answer;
-        for (auto table = tables.rbegin(); table != tables.rend(); ++table) // what was chosen first
-            answer.add(*table, {{"name", "event", "factor", "misfit", "pga_m_s2", "pgv_m_s", "arias_intensity_m_s",
-                                 "duration_5_95_s", "mean_period_s", "period_s", "target_m_s2", "mean_m_s2",
-                                 "mean_over_target"},
-                                "pga_m_s2"},
-                       "");
-        for (const Table& table : tables) answer += text(table) + "\n";
-        for (const std::string& note : notes) {
-            answer += note + "\n";
-            answer.note_in_brief(note);
-        }
-        answer.headline_in_brief({target ? fmt::format("{} of {} records selected.", lines.size(), suite.rows.size())
-                                         : fmt::format("{} records.", suite.rows.size())});
-        put_answer(std::move(answer), "--out FILE.csv", streams);
-        if (!a.out.empty() && !streams.quiet)
-            streams.talk << fmt::format("{}: {} records; read it with  --records {}\n", a.out.string(), lines.size(),
-                                        a.out.string());
+    Answer answer(json_header("record-suite"));
+    for (std::size_t i = 0; i < tables.size(); ++i) answer.add(names[i], tables[i]);
+    for (auto table = tables.rbegin(); table != tables.rend(); ++table) // what was chosen first
+        answer.add("", *table, {.text = false, .brief = true, .data = false});
+    for (const std::string& note : notes) {
+        answer += note + "\n";
+        answer.note_in_brief(note);
     }
+    answer.set("notes", notes);
+    answer.set("out", a.out.string());
+    answer.headline_in_brief({target ? fmt::format("{} of {} records selected.", lines.size(), suite.rows.size())
+                                     : fmt::format("{} records.", suite.rows.size())});
+    put_answer(std::move(answer), "--out FILE.csv", streams);
+    if (streams.form != Form::json && !a.out.empty() && !streams.quiet)
+        streams.talk << fmt::format("{}: {} records; read it with  --records {}\n", a.out.string(), lines.size(),
+                                    a.out.string());
     return good ? exit_ok : exit_no_answer;
 }
 

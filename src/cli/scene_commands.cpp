@@ -214,10 +214,7 @@ int ablate(const ExplainArguments& arguments, const Streams& streams)
     TerminalWatch watch(streams);
     const AblationRuns runs = run_ablations(plan, ready.pairs, arguments.jobs, watch);
     const Ablations ablations{plan, ready.records(), runs, ready.reservoir ? ready.reservoir->reason : std::string()};
-    if (streams.form == Form::json)
-        streams.out << ablation_json(ablations, given, ready.plan).dump(2) << "\n";
-    else
-        put_answer(ablation_answer(ablations, ready.plan), "--report FILE.html", streams);
+    put_answer(ablation_answer(ablations, given, ready.plan), "--report FILE.html", streams);
     if (!arguments.report.empty()) {
         write_file(arguments.report, page_html(ablation_page(ablations, given, ready.plan)));
         name_report(arguments.report, streams);
@@ -236,10 +233,7 @@ int explain(const ExplainArguments& arguments, const Streams& streams)
     Explained out{given, arguments.method, make_effect_plan(given, method), {}, {}, {}, note_texts(given.notes)};
     if (method == Method::finite_elements)
         add_model(prepare(given, method, records_at_hand(given), {.joints_of_lifts = true, .stop = streams.stop}), out);
-    if (streams.form == Form::json)
-        streams.out << explain_json(out).dump(2) << "\n";
-    else
-        put_answer(explain_answer(out), "", streams);
+    put_answer(explain_answer(out), "", streams);
     return exit_ok;
 }
 

@@ -80,12 +80,10 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
     for (std::string& note : screen_notes(ready)) s.warnings.push_back(std::move(note));
     const ScreenReportInput in{
         ready.given, ready.scene, s, ready.records(), arguments.jobs, spectrum.get(), arguments.mean_polarity};
-    if (streams.form == Form::json)
-        streams.out << screen_json(in).dump(2) << "\n";
-    else
-        put_answer(screen_answer(in), "--out DIR", streams);
+    const Answer answer = screen_answer(in);
+    put_answer(answer, "--out DIR", streams);
     if (!arguments.out.empty()) {
-        write_screening(arguments.out, in);
+        write_screening(arguments.out, in, answer);
         if (!streams.quiet)
             streams.talk << "written: " << (arguments.out / "summary.json").string() << ", displacements.csv, "
                          << (!given.wedge ? "equilibrium.csv, verdicts.csv, yield.csv, " : "")
@@ -155,13 +153,10 @@ int assess_dam(const AssessArguments& a, const Streams& streams)
     const Scene given = scene_to_assess(a, streams);
     TerminalWatch watch(streams);
     const Assessment assessment = assess(given, {a.budget, a.jobs}, watch);
-    const std::string json = assess_json(assessment, given).dump(2) + "\n";
-    if (streams.form == Form::json)
-        streams.out << json;
-    else
-        put_answer(assess_answer(assessment, given), "--out DIR", streams);
+    const Answer answer = assess_answer(assessment, given);
+    put_answer(answer, "--out DIR", streams);
     if (!a.out.empty()) {
-        write_file(a.out / "assess.json", json);
+        write_file(a.out / "assess.json", answer.json().dump(2) + "\n");
         write_file(a.out / "scene.resolved.toml", resolved_toml(given));
         write_file(a.out / "report.html", page_html(assess_page(assessment, given)));
         name_report(a.out / "report.html", streams);
@@ -224,23 +219,16 @@ int regress(const RegressArguments& a, const Streams& streams)
     const std::vector<RegressionRow> rows = regression_rows("given measures", inputs);
     std::optional<Table> coefficients;
     if (a.allowable_mm) coefficients = pages::allowable_coefficient_table(inputs, *a.allowable_mm * units::mm);
-    if (streams.form == Form::json) {
-        nlohmann::ordered_json j{{"command", "regress"}, {"yield_g", a.yield_g}, {"pga_g", a.pga_g}};
-        j["regressions"] = pages::json_of(pages::regression_table(rows));
-        if (coefficients) j["k_allowable"] = pages::json_of(*coefficients);
-        streams.out << j.dump(2) << "\n";
-    } else {
-        Answer answer;
-        answer.add(pages::regression_summary(rows),
-                   {{"model", "slip_mm", "slip_minus_sigma_mm", "slip_plus_sigma_mm", "remark"}, "slip_mm"});
-        if (coefficients) answer.add(*coefficients, {{"id", "model", "k_allowable", "k_allowable_over_pga"}});
-        const RegressionRow& weighted = rows.back();
-        answer.headline_in_brief(
-            weighted.median ? Headline{fmt::format("Weighted median {:.4g} mm ({}).", *weighted.median / units::mm,
-                                                   weighted.remark)}
-                            : Headline{"No regression gives a slip: " + weighted.status + "."});
-        put_answer(std::move(answer), "", streams);
-    }
+    Answer answer(nlohmann::ordered_json{{"command", "regress"}, {"yield_g", a.yield_g}, {"pga_g", a.pga_g}});
+    answer.add("regressions", pages::regression_table(rows), {.text = false});
+    answer.add("summary", pages::regression_summary(rows), {.brief = true, .data = false});
+    if (coefficients) answer.add("k_allowable", *coefficients, {.brief = true});
+    const RegressionRow& weighted = rows.back();
+    answer.headline_in_brief(weighted.median
+                                 ? Headline{fmt::format("Weighted median {:.4g} mm ({}).", *weighted.median / units::mm,
+                                                        weighted.remark)}
+                                 : Headline{"No regression gives a slip: " + weighted.status + "."});
+    put_answer(std::move(answer), "", streams);
     return rows.back().valid ? exit_ok : exit_no_answer;
 }
 

@@ -237,25 +237,16 @@ int slide_on_yield(const SlideArguments& a, const Streams& streams)
         for (GivenYieldRow& row : given_yield_runs(block, motions, methods)) rows.push_back(std::move(row));
     }
     const Table table = pages::given_yield_table(block, rows);
-    if (streams.form == Form::json) {
-        nlohmann::ordered_json j = pages::json_header("slide");
-        j["two_way"] = block.two_way;
-        j["rows"] = pages::json_of(table);
-        j["notes"] = table.notes;
-        streams.out << j.dump(2) << "\n";
-    } else {
-        pages::Answer answer;
-        answer.add(table, {{"yield_g", "record", "method", "yield_over_pga", "slip_mm", "slip_inverse_mm",
-                            "slip_mean_mm", "status"},
-                           "slip_mm"},
-                   pages::text(table) + "\n");
-        double largest = 0.0;
-        for (const GivenYieldRow& row : rows)
-            for (const sliding::SlideResult* r : {&row.normal, &row.inverse})
-                largest = std::max(largest, reported(r->status, r->max_slip).value_or(0.0));
-        answer.headline_in_brief({fmt::format("Slip {:.4g} mm at most, of both polarities.", largest / units::mm)});
-        put_answer(std::move(answer), "", streams);
-    }
+    pages::Answer answer(pages::json_header("slide"));
+    answer.set("two_way", block.two_way);
+    answer.add("rows", table, {.brief = true});
+    answer.set("notes", table.notes);
+    double largest = 0.0;
+    for (const GivenYieldRow& row : rows)
+        for (const sliding::SlideResult* r : {&row.normal, &row.inverse})
+            largest = std::max(largest, reported(r->status, r->max_slip).value_or(0.0));
+    answer.headline_in_brief({fmt::format("Slip {:.4g} mm at most, of both polarities.", largest / units::mm)});
+    put_answer(std::move(answer), "", streams);
     StatusCount statuses;
     for (const GivenYieldRow& row : rows) {
         statuses.add(row.normal.status);

@@ -167,6 +167,7 @@ int merge(const SweepArguments& arguments, const Streams& streams)
                   {scene ? &*scene : nullptr,
                    table,
                    {},
+                   {},
                    scene ? *load_records(*scene, Method::rigid_block) : std::vector<RecordPair>(),
                    arguments.out,
                    histories},
@@ -256,28 +257,17 @@ std::string rows_line(const Job& job, std::size_t rows)
                        polarity_words(job.axes.polarity));
 }
 
-/// The answer in brief on standard output where that has no rows, else beside them; in full, and of a part, it is talk.
-void put_sweep_answer(const Job& job, const std::string& full, const SweepReportInput& in, const Streams& streams)
+/// On standard output where that has no rows, else beside them; in full, and of a part, it is talk.
+void put_sweep_answer(const Job& job, const SweepReportInput& in, const Streams& streams)
 {
     const bool aside = rows_on_out(job.arguments, streams);
+    if (streams.form == Form::json) put_answer(sweep_answer(in), "", streams);
     if (streams.form == Form::text && !job.shard && !in.rows.rows.empty()) {
         if (!aside || !streams.quiet)
-            put_answer(sweep_answer(in, full), "--out FILE.csv", streams, aside ? &streams.talk : nullptr);
+            put_answer(sweep_answer(in), "--out FILE.csv", streams, aside ? &streams.talk : nullptr);
     } else if (!streams.quiet) {
-        streams.talk << full;
+        streams.talk << (job.shard ? in.closing : sweep_answer(in).full());
     }
-}
-
-/// A part has no report, nor has a table too large to be looked at.
-/// @param compared  FE against the rigid block
-void put_report(const Job& job, const std::vector<RecordPair>& records, const Table& compared, const Table& table,
-                const std::vector<std::size_t>& wanted, const SweepOutcome& outcome, const Streams& streams)
-{
-    if (!reports(job.arguments) || job.shard || table.rows.size() > largest_report) return;
-    std::vector<Table> tables;
-    if (outcome.fe) tables = {compared, count_table(*outcome.fe)};
-    put_pages(job.arguments, {&job.scene, table, tables, records, job.arguments.out, histories_of(wanted, outcome)},
-              streams);
 }
 
 int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, const std::vector<RecordPair>& records,
@@ -286,20 +276,21 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
     const Table table = sweep_table(grid, wanted, outcome, job.arguments.mean_polarity);
     Table compared;
     if (outcome.fe && !job.shard) compared = comparison_table(grid, compare_with_rigid(job.scene, grid, outcome));
-    if (streams.form == Form::json) streams.out << sweep_json(job.scene, table, compared, outcome).dump(2) << "\n";
     if (!job.shard && (!job.arguments.out.empty() || rows_on_out(job.arguments, streams)))
         put(job.arguments.out, csv(table, csv_comments(identity)), streams);
-    std::string full;
-    if (outcome.fe && !job.shard) full += fe_sweep_text(*outcome.fe, compared);
-    if (const std::optional<Table> rules = opening_water_table(table)) full += text(*rules) + "\n";
-    if (const Table needed = needed_friction_table(sweep_view(table), job.scene.criteria.allowable_slip);
-        !job.shard && !needed.rows.empty())
-        full += text(needed) + "\n";
-    full += rows_line(job, outcome.rows.size());
-    const SweepReportInput of_rows{&job.scene, table, {}, records, job.arguments.out};
-    put_sweep_answer(job, full, of_rows, streams);
+    const SweepReportInput in{.scene = &job.scene,
+                              .rows = table,
+                              .compared = compared,
+                              .fe = outcome.fe,
+                              .records = records,
+                              .csv = job.arguments.out,
+                              .histories = histories_of(wanted, outcome),
+                              .closing = rows_line(job, outcome.rows.size())};
+    put_sweep_answer(job, in, streams);
     if (streams.form != Form::text || streams.quiet || job.shard) talk_of_answers(table, outcome, streams);
-    put_report(job, records, compared, table, wanted, outcome, streams);
+    // A part has no report, nor has a table too large to be looked at.
+    if (reports(job.arguments) && !job.shard && table.rows.size() <= largest_report)
+        put_pages(job.arguments, in, streams);
     return outcome.complete() && outcome.all_good() ? exit_ok : exit_no_answer;
 }
 
@@ -355,8 +346,15 @@ int run_long(const Job& job, const Sweep& inputs, const SweepIdentity& identity,
     if (!totals.complete() && store) return stopped(totals.rows, totals.wanted, streams);
     if (rows) rows->finish();
     const SweepView view = reported || in_brief ? all.view() : SweepView();
-    const SweepReportInput of_rows{&job.scene, listed, {}, *inputs.records, job.arguments.out, {}, &view};
-    put_sweep_answer(job, rows_line(job, totals.rows), of_rows, streams);
+    const SweepReportInput of_rows{.scene = &job.scene,
+                                   .rows = listed,
+                                   .compared = {},
+                                   .fe = {},
+                                   .records = *inputs.records,
+                                   .csv = job.arguments.out,
+                                   .view = &view,
+                                   .closing = rows_line(job, totals.rows)};
+    put_sweep_answer(job, of_rows, streams);
     if (totals.bad) streams.talk << unanswered.words() << "\n";
     if (reported) {
         put_pages(job.arguments, of_rows, streams);

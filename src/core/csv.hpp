@@ -32,13 +32,38 @@ CsvTable parse_csv(std::string_view text);
 /// with = + - @ has an apostrophe in front: a spreadsheet would take it for a formula and run it.
 std::string csv_cell(std::string_view text);
 
+/// Does a column stand in the answer in brief?
+enum class Brief {
+    no,
+    shown,
+    ranks ///< shown; where not all rows have room, those with its largest numbers stay
+};
+
 /// A named result column: the key carries the unit in files ("slip_m"), heading and unit are what people read.
 struct Column {
     std::string key;       ///< CSV header and JSON key, unit as suffix: "yield_acceleration_m_s2"
     std::string heading;   ///< terminal and report: "yield acceleration"
     std::string unit = {}; ///< "m/s²", "mm", "–"; empty for text columns
     int digits = 4;        ///< significant digits for people; files always carry the full double
+    Brief brief = Brief::no;
+    std::string brief_heading = {}; ///< in the answer in brief, where the heading is long; empty: the heading
 };
+
+/// The column as one of the answer in brief. @param heading  there; empty: its own
+inline Column in_brief(Column column, std::string heading = {})
+{
+    column.brief = Brief::shown;
+    column.brief_heading = std::move(heading);
+    return column;
+}
+
+/// The same, and the rows with its largest numbers stay.
+inline Column ranking(Column column, std::string heading = {})
+{
+    column = in_brief(std::move(column), std::move(heading));
+    column.brief = Brief::ranks;
+    return column;
+}
 
 /// Nothing (not defined here; printed as "–", null in JSON, empty in CSV), a number, a count, a word, yes/no.
 using Cell = std::variant<std::monostate, double, std::int64_t, std::string, bool>;

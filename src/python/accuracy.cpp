@@ -25,13 +25,8 @@ struct AccuracyResult final : Result {
     {
         return {scene, *records, found.rungs, found.judgement, tolerance, "", {}};
     }
-    std::vector<std::pair<std::string, Table>> tables() const override
-    {
-        return {{"rungs", pages::rung_table(found.rungs, found.judgement)},
-                {"models", pages::model_table(found.rungs, found.judgement)},
-                {"slips", pages::slip_table(found.rungs, input().motions())}};
-    }
-    std::string json() const override { return pages::accuracy_json(input()).dump(2); }
+    pages::Answer answer() const override { return pages::accuracy_answer(input()); }
+    std::string first_table() const override { return "rungs"; }
     pages::Page page() const override { return pages::accuracy_page(input()); }
     pages::Headline headline() const override
     {

@@ -26,22 +26,12 @@ struct FeResult final : Result {
     pages::FeReport::Input input() const
     {
         return {ready.scene, ready.plan, ready.records(), models->model(), models->rigid(), models->uplift(),
-                models->combinations()};
+                models->combinations(), models->reduced()};
     }
     const std::optional<double>& allowable() const { return ready.scene.criteria.allowable_slip; }
 
-    std::vector<std::pair<std::string, Table>> tables() const override
-    {
-        using namespace pages;
-        std::vector<std::pair<std::string, Table>> list{
-            {"runs", contact_run_table(runs, allowable())}, {"slip", contact_slip_table(runs)},
-            {"stages", contact_stage_table(runs)},          {"run_out", run_out_table(runs)},
-            {"energy", contact_energy_table(runs)},         {"counts", contact_count_table(runs)}, {"cracking", crack_table(runs)}};
-        if (!ready.scene.lift_joints.empty()) list.emplace_back("lift_joints", contact_lift_table(runs, allowable()));
-        if (!ready.scene.anchors.empty()) list.emplace_back("anchors", contact_anchor_table(runs));
-        return list;
-    }
-    std::string json() const override { return contact_answer(input(), runs, messages, spread).json.dump(2); }
+    pages::Answer answer() const override { return contact_answer(input(), runs, messages, spread); }
+    std::string first_table() const override { return "runs"; }
     pages::Page page() const override { return report->page(runs, messages, spread); }
     pages::Headline headline() const override { return pages::fe_headline(ready.scene, runs, models->combinations()); }
 };
@@ -51,7 +41,7 @@ void compute(const OpenedScene& opened, const FeOptions& options, bool spread, W
     if (opened.scene.wedge)
         refuse_usage("finite elements cannot take a [wedge].", "a scene with a [section]",
                      "scene.screen() gives the slip of the wedge");
-    result.ready = prepare(opened.scene, Method::finite_elements, {.joints_of_lifts = true, .stop = watch.stop()});
+    result.ready = prepare(opened.scene, Method::finite_elements, {.joints_of_lifts = !options.reduced, .stop = watch.stop()});
     result.models = std::make_unique<ContactRuns>(result.ready, options, watch);
     result.ready = result.models->ready(); // with the lifts that have woken
     const fe2d::EarthquakeRun& model = result.models->model();
@@ -66,9 +56,13 @@ void compute(const OpenedScene& opened, const FeOptions& options, bool spread, W
 }
 
 std::shared_ptr<FeResult> fe(const OpenedScene& opened, std::optional<int> polarity, bool mesh_error, bool spread,
-                             const py::object& progress)
+                             bool reduced, std::optional<int> modes, const py::object& progress)
 {
+    if (modes && (!reduced || *modes < 1 || *modes > 1000))
+        refuse_usage("fe(modes): of a reduced run alone.", "1 to 1000 elastic modes, and reduced=True", "leave modes out for 12");
     FeOptions options;
+    options.reduced = reduced;
+    options.modes = modes;
     options.polarity = polarity;
     options.mesh_error = mesh_error;
     options.pair_histories = true;
@@ -199,7 +193,7 @@ void add_fe(py::module_& module)
         .def_property_readonly("warnings", [](const FeResult& r) { return r.messages; });
 
     module.def("_fe", &fe, py::arg("scene"), py::arg("polarity"), py::arg("mesh_error"), py::arg("spread"),
-               py::arg("progress"));
+               py::arg("reduced"), py::arg("modes"), py::arg("progress"));
 }
 
 } // namespace damslip::python

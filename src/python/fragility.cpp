@@ -29,21 +29,14 @@ struct FragilityResult final : Result {
 
     pages::FragilityView view() const { return pages::view_of(*study, plan, runs, answer); }
 
-    std::vector<std::pair<std::string, Table>> tables() const override
+    pages::Answer answer() const override
     {
-        using namespace pages;
-        const FragilityView of = view();
-        std::vector<std::pair<std::string, Table>> list{{"probabilities", fragility_table(of)},
-                                                        {"curves", curve_table(of)},
-                                                        {"rates", rate_table(of)},
-                                                        {"rate_parts", rate_part_table(of)},
-                                                        {"needed_yield", needed_yield_table(of)},
-                                                        {"samples", sample_table(of)}};
-        if (answer.conditioned) list.emplace_back("conditioned_on_friction", conditioned_table(of));
-        if (answer.causes) list.emplace_back("causes", cause_table(of));
-        return list;
+        pages::Answer all = pages::fragility_answer(view());
+        all.add("rate_parts", pages::rate_part_table(view()), {.text = false});
+        all.add("samples", pages::sample_table(view()), {.text = false});
+        return all;
     }
-    std::string json() const override { return pages::fragility_json(view()).dump(2); }
+    std::string first_table() const override { return "probabilities"; }
     pages::Page page() const override { return pages::fragility_page(view()); }
     pages::Headline headline() const override { return page().headline; }
 };

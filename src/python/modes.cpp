@@ -17,14 +17,8 @@ struct ModesAnswer final : Result {
     Scene given;
     std::optional<ModesResult> found;
 
-    std::vector<std::pair<std::string, Table>> tables() const override
-    {
-        std::vector<std::pair<std::string, Table>> list{{"modes", pages::frequency_table(*found)},
-                                                        {"damping", pages::damping_table(*found)}};
-        if (!found->transfer.empty()) list.emplace_back("transfer_functions", pages::transfer_table(*found));
-        return list;
-    }
-    std::string json() const override { return pages::modes_json(given, *found).dump(2); }
+    pages::Answer answer() const override { return pages::modes_answer(given, *found); }
+    std::string first_table() const override { return "modes"; }
     pages::Headline headline() const override
     {
         return {given.title + ": " + std::to_string(found->modes.frequency.size()) + " modes", pages::Outcome::none,
@@ -36,7 +30,7 @@ struct ModesAnswer final : Result {
         page.title = given.title;
         page.headline = headline();
         pages::Section section{"Modes", {}, pages::Fold::open};
-        for (auto& [name, table] : tables()) section.parts.push_back(pages::rows_part(std::move(table)));
+        for (auto& [name, table] : answer().tables()) section.parts.push_back(pages::rows_part(std::move(table)));
         page.sections.push_back(std::move(section));
         return page;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/csv.hpp"
+#include "pages/report/answer.hpp"
 #include "pages/report/page.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -16,12 +17,12 @@ namespace damslip::python {
 
 namespace py = pybind11;
 
-/// What every result has: the tables of its command by their names in the JSON object, this object, and the report.
+/// What every result has: the answer of its command (tables by their names in the JSON object, this object), and the report.
 class Result {
 public:
     virtual ~Result() = default;
-    virtual std::vector<std::pair<std::string, Table>> tables() const = 0; ///< the one people look at first
-    virtual std::string json() const = 0; ///< text of the object that the command prints with --json
+    virtual pages::Answer answer() const = 0;         ///< of the command
+    virtual std::string first_table() const = 0;      ///< id of the one people look at first
     virtual pages::Page page() const = 0; ///< of the report
     virtual pages::Headline headline() const = 0;
     bool interrupted = false; ///< Ctrl-C: what is there is what was finished

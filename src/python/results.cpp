@@ -4,6 +4,8 @@
 #include "pages/report/page.hpp"
 #include "pages/report/table_text.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace damslip::python {
 
 namespace {
@@ -89,12 +91,15 @@ void add_results(py::module_& module)
     py::class_<Result, std::shared_ptr<Result>>(module, "Result")
         .def_property_readonly("tables",
                                [](const Result& result) {
+                                   const auto all = result.answer().tables();
+                                   const std::string first = result.first_table();
                                    py::dict tables;
-                                   for (auto& [name, table] : result.tables())
-                                       tables[py::str(name)] = py::cast(std::move(table));
+                                   for (const bool is_first : {true, false})
+                                       for (const auto& [name, table] : all)
+                                           if ((name == first) == is_first) tables[py::str(name)] = py::cast(table);
                                    return tables;
                                })
-        .def("json_text", [](const Result& result) { return result.json() + "\n"; })
+        .def("json_text", [](const Result& result) { return result.answer().json().dump(2) + "\n"; })
         .def("report", [](const Result& result) { return pages::page_html(result.page()); })
         .def("_charts", [](const Result& result) { return pages::page_html(charts_of(result.page())); })
         .def_property_readonly("sentence", [](const Result& result) { return result.headline().sentence; })

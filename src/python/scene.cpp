@@ -31,25 +31,8 @@ struct ScreenResult final : Result {
     const std::optional<double>& allowable() const { return ready.scene.criteria.allowable_slip; }
     pages::ScreenReportInput input() const { return {ready.given, ready.scene, screening, ready.records()}; }
 
-    std::vector<std::pair<std::string, Table>> tables() const override
-    {
-        using namespace pages;
-        const Screening& s = screening;
-        std::vector<std::pair<std::string, Table>> list{{"displacements", slip_table(s, allowable())}};
-        if (has_rocking(s)) list.emplace_back("rocking_block", rocking_table(s, allowable()));
-        if (s.flexible) list.emplace_back("flexible_block", flexible_table(s, allowable()));
-        if (s.elastic) list.emplace_back("elastic", elastic_table(s, allowable()));
-        list.emplace_back("regressions", regression_table(s.regressions));
-        list.emplace_back("statistics", statistics_table(s));
-        if (!ready.scene.wedge) {
-            list.emplace_back("limit_equilibrium", sliding::equilibrium_table(s.combinations));
-            list.emplace_back("verdicts", sliding::verdict_table(s.combinations));
-            list.emplace_back("yield", yield_table(s));
-            list.emplace_back("uplift_profiles", sliding::uplift_comparison_table(s.uplifts));
-        }
-        return list;
-    }
-    std::string json() const override { return pages::screen_json(input()).dump(2); }
+    pages::Answer answer() const override { return pages::screen_answer(input()); }
+    std::string first_table() const override { return "displacements"; }
     pages::Page page() const override { return pages::screen_page(input()); }
     pages::Headline headline() const override { return pages::screen_headline(ready.scene, screening); }
 };

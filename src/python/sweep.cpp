@@ -29,24 +29,18 @@ struct SweepResult final : Result {
         std::iota(ids.begin(), ids.end(), std::size_t{0});
         return ids;
     }
-    std::vector<std::pair<std::string, Table>> tables() const override
-    {
-        std::vector<std::pair<std::string, Table>> list{{"rows", rows}};
-        if (outcome.fe) list.emplace_back("comparison", compared);
-        return list;
-    }
-    std::string json() const override { return pages::sweep_json(sweep->scene, rows, compared, outcome).dump(2); }
-    pages::Page page() const override
+    pages::SweepReportInput input() const
     {
         std::vector<SlipHistory> histories;
         for (const std::size_t id : wanted()) {
             const FinishedRow* row = outcome.find(id);
             histories.push_back(row ? row->history : SlipHistory{});
         }
-        std::vector<Table> further;
-        if (outcome.fe) further = {compared, pages::count_table(*outcome.fe)};
-        return pages::sweep_page({&sweep->scene, rows, further, *sweep->records, {}, histories});
+        return {&sweep->scene, rows, compared, outcome.fe, *sweep->records, {}, std::move(histories)};
     }
+    pages::Answer answer() const override { return pages::sweep_answer(input()); }
+    std::string first_table() const override { return "rows"; }
+    pages::Page page() const override { return pages::sweep_page(input()); }
     pages::Headline headline() const override
     {
         return {fmt::format("{} of {} rows", outcome.rows.size(), outcome.wanted), pages::Outcome::none, ""};

@@ -61,7 +61,7 @@ void reduced_case(const char* name, double contact_size, double dam_size, double
     const double full = processor_seconds();
     const fe2d::ReducedRun reduced(run, scene, options, modes);
     const double reduced_ready = processor_seconds();
-    const fe2d::ReducedResult result = reduced.run(motion);
+    const fe2d::RunResult result = reduced.run(motion);
     const double end = processor_seconds();
     const double all_full = full - start, all_reduced = ready - start + end - full;
     std::printf("%-22s %6d %5.2f %5d %6d | %8.3f %8.3f %8.3f %8.3f | %8.3f %5.2f | %9.2f mm %8.4f %% %8.4f %%\n", name,

@@ -38,7 +38,7 @@ void expect_full_run(const Scene& scene, const RunOptions& options, double pga =
     const EarthquakeRun full(scene, options);
     const RunResult expected = full.run(motion);
     const ReducedRun reduced(full, scene, options, 100000);
-    const ReducedResult result = reduced.run(motion);
+    const RunResult result = reduced.run(motion);
     ASSERT_EQ(result.modes + 3, full.structure().dam_unknowns());
     ASSERT_GT(std::abs(expected.slip), 1e-3);
     EXPECT_EQ(result.truncation_error, 0.0);
@@ -152,7 +152,7 @@ void expect_slips_of_full_runs(const Scene& scene)
             Contact contact = scene.contact;
             contact.friction = friction;
             const RunResult expected = full.run(ground, contact);
-            const ReducedResult result = reduced.run(ground, contact);
+            const RunResult result = reduced.run(ground, contact);
             ASSERT_EQ(result.status, expected.status) << result.message << expected.message;
             ASSERT_EQ(result.modes, default_modes);
             EXPECT_GT(expected.max_slip, 1e-4) << friction;
@@ -262,7 +262,7 @@ TEST(FeReduction, rock_that_missed_its_gate_gives_no_slip)
     const EarthquakeRun full(scene, options);
     ASSERT_EQ(full.radiating()->origin, RockOrigin::kept);
     const RunResult run = full.run(motion);
-    const ReducedResult reduced = ReducedRun(full, scene, options).run(motion);
+    const RunResult reduced = ReducedRun(full, scene, options).run(motion);
     EXPECT_EQ(run.status, Status::not_resolved);
     EXPECT_EQ(run.message, "The radiating rock's reduction errs by 5 %, 2 % are allowed: give a smaller "
                            "foundation.wave_frequency_Hz.");

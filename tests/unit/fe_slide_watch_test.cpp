@@ -275,7 +275,7 @@ TEST(SelfExcited, the_same_dam_is_named_by_the_reduced_run)
     const Scene scene = walking_dam();
     const RunOptions options = options_of(scene);
     const EarthquakeRun full(scene, options);
-    const ReducedResult run = ReducedRun(full, scene, options).run(shaking());
+    const RunResult run = ReducedRun(full, scene, options).run(shaking());
     ASSERT_EQ(run.status, Status::self_excited) << run.message;
     EXPECT_GE(run.run_out.thrust_over_friction, 1.0);
     EXPECT_TRUE(std::isnan(run.run_out.energy_kept)); // no ledger
@@ -285,7 +285,7 @@ TEST(SelfExcited, the_same_dam_is_named_by_the_reduced_run)
     Scene dying = walking_dam(0.90);
     dying.sliding.run_out_max = 0.0;
     const EarthquakeRun full_dying(dying, options);
-    const ReducedResult few = ReducedRun(full_dying, dying, options, 100).run(shaking());
+    const RunResult few = ReducedRun(full_dying, dying, options, 100).run(shaking());
     const RunResult whole = full_dying.run(shaking());
     const std::size_t row = whole.history.time.size() - 101; // the last second
     const double work =

@@ -122,7 +122,7 @@ TEST(SweepReport, HeadlineCountsStaticFailuresAndRowsWithoutAnAnswer)
 {
     const Scene scene = sweep_scene();
     Table rows = sweep_rows();
-    pages::Page page = sweep_page({&scene, rows, {}, {}, "results.csv"});
+    pages::Page page = sweep_page({&scene, rows, {}, {}, {}, "results.csv"});
     EXPECT_EQ(page.headline.outcome, pages::Outcome::none);
     EXPECT_NE(page.headline.sentence.find("72 rows: the largest slip is 53 mm (fe, μ = 0.8, record record 3)"),
               std::string::npos)
@@ -137,7 +137,7 @@ TEST(SweepReport, HeadlineCountsStaticFailuresAndRowsWithoutAnAnswer)
 
     rows.rows[1][11] = rows.rows[1][12] = Cell{}; // an FE run at 0.9 that did not end
     rows.rows[1][16] = std::string("not resolved");
-    page = sweep_page({&scene, rows, {}, {}, "results.csv"});
+    page = sweep_page({&scene, rows, {}, {}, {}, "results.csv"});
     EXPECT_EQ(page.headline.outcome, pages::Outcome::unresolved);
     ASSERT_EQ(page.warnings.size(), 2u);
     EXPECT_EQ(page.warnings[0], rigid_base);
@@ -147,7 +147,7 @@ TEST(SweepReport, HeadlineCountsStaticFailuresAndRowsWithoutAnAnswer)
     for (std::vector<Cell>& row : rows.rows)
         if (std::get<std::string>(row[8]).starts_with("fe")) row[8] = std::string("rigid");
     rows.rows[1][16] = std::string("at rest");
-    EXPECT_TRUE(sweep_page({&scene, rows, {}, {}, "results.csv"}).warnings.empty());
+    EXPECT_TRUE(sweep_page({&scene, rows, {}, {}, {}, "results.csv"}).warnings.empty());
 }
 
 TEST(SweepReport, ATableWithoutRowsHasAPageToo)
@@ -155,7 +155,7 @@ TEST(SweepReport, ATableWithoutRowsHasAPageToo)
     const Scene scene = sweep_scene();
     Table rows = sweep_rows();
     rows.rows.clear();
-    EXPECT_NE(sweep_report({&scene, rows, {}, {}, ""}).find("0 rows"), std::string::npos);
+    EXPECT_NE(sweep_report({&scene, rows, {}, {}, {}, ""}).find("0 rows"), std::string::npos);
 }
 
 } // namespace

@@ -226,7 +226,7 @@ std::vector<Check> with_everything()
     few.time.substeps = 0;
     const fe2d::RunOptions options = fe2d::test::options_of(few);
     const fe2d::EarthquakeRun full(few, options);
-    const fe2d::ReducedResult reduced = fe2d::ReducedRun(full, few, options, 60).run(motion);
+    const fe2d::RunResult reduced = fe2d::ReducedRun(full, few, options, 60).run(motion);
     return {
         {"finite sliding: slip beside that of small sliding", "m", plain.slip, far.slip, 0.02, Measure::relative},
         {"unequal sides: slip beside that of equal ones", "m", plain.slip, unequal.slip, 0.03, Measure::relative},

@@ -24,7 +24,7 @@ std::vector<Check> slip_of_few_modes()
         const double slip = whole.slip;
         for (const int factor : {1, 4}) {
             const fe2d::ReducedRun reduced(full, scene, options, factor * fe2d::default_modes);
-            const fe2d::ReducedResult result = reduced.run(motion);
+            const fe2d::RunResult result = reduced.run(motion);
             const std::string name =
                 ", mu = " + std::to_string(friction).substr(0, 4) + ", " + std::to_string(result.modes) + " modes";
             checks.push_back({"slip" + name, "m", slip, result.slip, factor == 1 ? 1e-2 : 1e-3, Measure::relative});

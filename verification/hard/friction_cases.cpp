@@ -52,7 +52,7 @@ HardResult friction_of_three()
     const GroundMotion motion = sines(4.0, 6.0);
     const fe2d::EarthquakeRun full(scene, options);
     const fe2d::ReducedRun all_modes(full, scene, options, 100000);
-    const fe2d::ReducedResult other = all_modes.run(motion);
+    const fe2d::RunResult other = all_modes.run(motion);
     return compared(full.run(motion), other.slip, 1e-6 * other.max_slip);
 }
 

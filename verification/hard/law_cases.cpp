@@ -76,7 +76,7 @@ HardResult one_mode()
     const fe2d::RunOptions options = ready.run_options(nobody);
     const GroundMotion motion = sines(1.0, 6.0);
     const fe2d::EarthquakeRun full(scene, options);
-    const fe2d::ReducedResult reduced = fe2d::ReducedRun(full, scene, options, 1).run(motion);
+    const fe2d::RunResult reduced = fe2d::ReducedRun(full, scene, options, 1).run(motion);
     const fe2d::RunResult whole = full.run(motion);
     HardResult result = compared(whole, whole.slip, 3.0 * reduced.truncation_error);
     result.value_a = reduced.slip;

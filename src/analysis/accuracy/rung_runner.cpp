@@ -60,8 +60,7 @@ std::string first_line(const std::string& text)
 }
 
 /// Takes over one motion's run. @returns false where it gives no slip
-template <class Run>
-bool take(const Run& run, RungResult& result)
+bool take(const fe2d::RunResult& run, RungResult& result)
 {
     result.steps = result.steps.value_or(0) + run.counts.steps;
     result.time_step = std::min(result.time_step.value_or(run.dt), run.dt);
@@ -230,8 +229,9 @@ void RungRunner::run_finite_elements(const Scene& given, RungResult& result) con
     for (const RecordPair& pair : ready.records())
         for (const GroundMotion& motion : ready.motions(pair)) {
             // Without an estimate of the modes left out: the ladder compares with the run that has all of them.
-            const auto reduced_run = [&] { return reduced->run(motion, {}, {}, fe2d::TruncationEstimate::left_out); };
-            if (reduced ? !take(reduced_run(), result) : !take(full.run(motion), result)) return;
+            const fe2d::RunResult run =
+                reduced ? reduced->run(motion, {}, {}, fe2d::TruncationEstimate::left_out) : full.run(motion);
+            if (!take(run, result)) return;
         }
 }
 

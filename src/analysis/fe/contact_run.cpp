@@ -90,8 +90,8 @@ std::string SlipError::parts() const
 
 SlipError slip_error(const ContactRun& run)
 {
-    SlipError error = error_of(run.fe.slip_error, run.mesh.base, run.mesh.check);
-    error.modes = run.few_modes;
+    SlipError error = error_of(run.fe.truncation_error + run.fe.slip_error, run.mesh.base, run.mesh.check);
+    error.modes = run.fe.modes > 0;
     return error;
 }
 
@@ -107,7 +107,7 @@ std::vector<std::string> error_notes(const std::vector<ContactRun>& runs)
     for (const ContactRun& r : runs) {
         std::string note = r.mesh.reason;
         if (r.mesh.check == MeshCheck::no_answer) note = r.label() + ": " + note;
-        if (has_slip(r) && std::isnan(r.fe.slip_error))
+        if (has_slip(r) && std::isnan(slip_error(r).step))
             note = "no error estimate: the step is fixed (time.substeps), so nothing tells what it leaves open; there "
                    "is no "
                    "verdict by such a slip";
@@ -164,56 +164,6 @@ int exit_code_of(const std::vector<ContactRun>& runs)
     for (const ContactRun& r : runs)
         code = worse_exit_code(code, open_after(r) ? exit_no_answer : status_row(r.fe.status).exit_code);
     return code;
-}
-
-ContactRun as_contact_run(const ReducedRecord& r)
-{
-    ContactRun run;
-    static_cast<MotionName&>(run) = r;
-    run.mesh = r.mesh;
-    run.rigid = r.rigid;
-    run.leaves_out = r.leaves_out;
-    run.few_modes = true;
-    run.fe.status = r.result.status;
-    run.fe.message = r.result.message;
-    run.fe.stages = r.result.stages;
-    run.fe.after = r.result.after;
-    run.fe.slip = r.result.slip;
-    run.fe.max_slip = r.result.max_slip;
-    run.fe.slip_error = r.result.truncation_error + r.result.step_error;
-    run.fe.halvings = r.result.halvings;
-    run.fe.dt = r.result.dt;
-    run.fe.end_time = r.result.end_time;
-    run.fe.counts = r.result.counts;
-    run.fe.seconds.statics = r.result.seconds.statics;
-    run.fe.seconds.dynamics = r.result.seconds.dynamics;
-    run.fe.seconds.contact = r.result.seconds.contact;
-    run.fe.run_out = r.result.run_out;
-    fe2d::RunHistory& h = run.fe.history;
-    h.time = r.result.history.time;
-    h.slip = r.result.history.slip;
-    h.crest_x = r.result.history.crest_x;
-    h.normal_force = r.result.history.normal_force;
-    h.shear_force = r.result.history.shear_force;
-    h.slide = r.result.history.slide;
-    const auto ground = [&](const std::vector<double>& accel) {
-        std::vector<double> at(h.time.size(), 0.0); // still after the record's end
-        for (std::size_t i = 0; i < h.time.size(); ++i) {
-            const auto k = static_cast<std::size_t>(std::lround(h.time[i] / r.motion.dt));
-            if (k < accel.size()) at[i] = accel[k];
-        }
-        return at;
-    };
-    h.ground_h = ground(r.motion.accel_h);
-    h.ground_v = ground(r.motion.accel_v);
-    return run;
-}
-
-std::vector<ContactRun> as_contact_runs(const std::vector<ReducedRecord>& runs)
-{
-    std::vector<ContactRun> list;
-    for (const ReducedRecord& r : runs) list.push_back(as_contact_run(r));
-    return list;
 }
 
 namespace {

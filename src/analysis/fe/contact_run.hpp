@@ -2,7 +2,6 @@
 
 #include "analysis/fe/mesh_error.hpp"
 #include "analysis/prepare/ready.hpp"
-#include "fe2d/reduction/reduced_run.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "sliding/block/slide.hpp"
 
@@ -17,12 +16,11 @@ namespace damslip {
 
 /// The earthquake of one record, one polarity, with sliding, opening and rocking at the base.
 struct ContactRun : MotionName {
-    fe2d::RunResult fe;
+    fe2d::RunResult fe;                        ///< of the whole dam, or of few modes of it (RunResult::modes)
     std::optional<sliding::SlideResult> rigid; ///< none where the block slides statically
     std::optional<fe2d::RunResult> exact;      ///< with rigid sticking, where that of `fe` gives way
     MeshError mesh;
     bool leaves_out = false; ///< something that the scene asks for (not_honoured()): no PASS rests on the slip
-    bool few_modes = false;  ///< of a ReducedRecord: the step's part of the error holds that of the modes left out
     std::optional<double> tensile_strength = {}; ///< dam.tensile_strength, against which `fe.cracks` is held [Pa]
 };
 
@@ -79,19 +77,6 @@ const ContactRun& worst_of(const std::vector<ContactRun>& runs);
 
 /// By the statuses of the runs, and of the states after the earthquake.
 int exit_code_of(const std::vector<ContactRun>& runs);
-
-/// The earthquake of one record on few modes of the dam.
-struct ReducedRecord : MotionName {
-    fe2d::ReducedResult result;
-    GroundMotion motion;
-    MeshError mesh;
-    std::optional<sliding::SlideResult> rigid; ///< none where the block slides statically
-    bool leaves_out = false;                   ///< as ContactRun::leaves_out
-};
-
-/// What a reduced run knows, in the form of a full one; the step's part of its error holds that of the modes left out, too.
-ContactRun as_contact_run(const ReducedRecord& run);
-std::vector<ContactRun> as_contact_runs(const std::vector<ReducedRecord>& runs);
 
 /// What a contact run of a scene condenses, holds and costs. Sizes are those of the run; seconds are measured on a
 /// second of strong shaking on this machine, so they differ from call to call.

@@ -37,9 +37,10 @@ ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& wa
                                                   meter_.reached(share_of_run + (1.0 - share_of_run) * share_of(p));
                                                   return answer(watch_);
                                               },
-                                              watch)
+                                              watch, options.modes.value_or(fe2d::default_modes))
 {
-    watch.begin("fe", static_cast<double>(whole()));
+    if (options.reduced) check_reducible(ready.scene);
+    watch.begin(options.reduced ? "fe --reduced" : "fe", static_cast<double>(whole()));
     watch.phase("set-up");
     options_.reducing_rock = tell_of_large_box(watch);
     const fe2d::RunOptions plain = options_;
@@ -52,13 +53,16 @@ ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& wa
     };
     options_.ends_when_lifts_wake = !options_.start;
     model_.emplace(ready.scene, options_);
+    if (options.reduced)
+        reduced_.emplace(*model_, ready.scene, options_, options.modes.value_or(fe2d::default_modes));
     if (options_.start && options_.start->pairs() != model_->structure().pairs())
         throw InputError(Diagnostic{ready.scene.file.string(), 0, 0,
                                     fmt::format("the state is of {} pairs, the model has {}.", options_.start->pairs(),
                                                 model_->structure().pairs()),
                                     "the state of the same model", "write the state anew with  --state-out"});
     wake_lifts();
-    if (const std::optional<Scene> exact = with_exact_contact(ready_.scene)) exact_.emplace(*exact, plain);
+    if (const std::optional<Scene> exact = with_exact_contact(ready_.scene); exact && !reduced_)
+        exact_.emplace(*exact, plain);
     rigid_ = ready.rigid_model();
     combinations_ = ready.combinations();
 }
@@ -66,7 +70,7 @@ ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& wa
 /// Runs every record on the model in which no more lifts wake.
 void ContactRuns::wake_lifts()
 {
-    if (ready_.scene.tied_lifts.empty() || options_.start) return;
+    if (ready_.scene.tied_lifts.empty() || options_.start || reduced_) return;
     found_.resize(ready_.records().size());
     for (bool woken = true; woken;) {
         woken = false;
@@ -120,7 +124,7 @@ std::vector<ContactRun> ContactRuns::run(const TakeRun& take)
         std::vector<ContactRun> both(motions.size());
         parallel_for(motions.size(), jobs_, [&](std::size_t i) {
             static_cast<MotionName&>(both[i]) = names[runs.size() + i];
-            both[i].leaves_out = !not_honoured(ready_.scene, methods::fe).empty();
+            both[i].leaves_out = !not_honoured(ready_.scene, reduced_ ? methods::reduced : methods::fe).empty();
             both[i].tensile_strength = ready_.scene.dam.tensile_strength;
             if (!found_.empty() && !found_[k].runs.empty()) both[i].fe = std::move(found_[k].runs[i]);
             run(motions[i], both[i]);
@@ -137,62 +141,13 @@ std::vector<ContactRun> ContactRuns::run(const TakeRun& take)
 void ContactRuns::run(const GroundMotion& motion, ContactRun& r)
 {
     meter_.begin(1);
-    if (r.fe.stages.empty()) r.fe = model_->run(motion); // else it has run while lifts were waking
+    if (r.fe.stages.empty()) // else it has run while lifts were waking
+        r.fe = reduced_ ? reduced_->run(motion) : model_->run(motion);
     watch_.results_at_hand();
     r.mesh = coarser_.error_of(*model_, r.fe, motion);
     if (exact_ && !watch_.stop_asked()) r.exact = exact_->run(motion);
     if (rigid_.state == sliding::StaticState::at_rest) r.rigid = slide_model(ready_.scene, rigid_, motion, 1);
     meter_.end();
-}
-
-ReducedRuns::ReducedRuns(const Ready& ready, const FeOptions& options, Watch& watch)
-    : ready_(ready), watch_(watch), polarity_(options.polarity), jobs_(options.jobs),
-      options_(ready.run_options(watch)), modes_(options.modes.value_or(fe2d::default_modes)),
-      coarser_(ready, options.mesh_error, options_.progress, watch, modes_)
-{
-    check_reducible(ready.scene);
-    watch.begin("fe --reduced", static_cast<double>(whole()));
-    watch.phase("set-up");
-    options_.reducing_rock = tell_of_large_box(watch);
-    full_.emplace(ready.scene, options_);
-    model_.emplace(*full_, ready.scene, options_, modes_);
-    rigid_ = ready.rigid_model();
-    combinations_ = ready.combinations();
-}
-
-std::size_t ReducedRuns::whole() const
-{
-    return motion_names(ready_.scene, ready_.records(), polarity_).size();
-}
-
-std::vector<ReducedRecord> ReducedRuns::run(const TakeRun& take)
-{
-    std::vector<ReducedRecord> runs;
-    std::atomic<int> done{0};
-    const std::vector<MotionName> names = motion_names(ready_.scene, ready_.records(), polarity_);
-    for (const RecordPair& pair : ready_.records()) {
-        if (watch_.stop_asked()) break;
-        std::vector<GroundMotion> motions = ready_.motions(pair, polarity_);
-        std::vector<ReducedRecord> both(motions.size());
-        parallel_for(motions.size(), jobs_, [&](std::size_t i) {
-            ReducedRecord& run = both[i];
-            static_cast<MotionName&>(run) = names[runs.size() + i];
-            run.motion = std::move(motions[i]);
-            run.leaves_out = !not_honoured(ready_.scene, methods::reduced).empty();
-            run.result = model_->run(run.motion);
-            watch_.results_at_hand();
-            run.mesh = coarser_.error_of(run.result, run.motion);
-            if (rigid_.state == sliding::StaticState::at_rest)
-                run.rigid = slide_model(ready_.scene, rigid_, run.motion, 1);
-            watch_.at(static_cast<double>(++done));
-        });
-        for (ReducedRecord& run : both) {
-            runs.push_back(std::move(run));
-            if (take) take(runs.back());
-        }
-    }
-    watch_.end();
-    return runs;
 }
 
 GroupQueue::GroupQueue(std::vector<std::size_t> models, int threads)

@@ -4,6 +4,7 @@
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/reducible.hpp"
 #include "core/watch.hpp"
+#include "fe2d/reduction/reduced_run.hpp"
 #include "fe2d/time/energy.hpp"
 
 #include <cstddef>
@@ -51,7 +52,8 @@ struct FeOptions {
     bool mesh_error = true;           ///< one more run on elements of twice the size tells what the mesh leaves open
     bool pair_histories = false;      ///< keep the values of the pairs at every step, for files and pages
     int frames = 0;                   ///< kept over the record, for pictures; 0: none
-    std::optional<int> modes = {};    ///< elastic modes of reduced runs; none: their own choice
+    bool reduced = false;             ///< on few modes of the dam, whose error is estimated too
+    std::optional<int> modes = {};    ///< elastic ones kept then; none: fe2d::default_modes
     std::optional<fe2d::RunState> start = {}; ///< of the joints, from a run before; no mesh error then
     int jobs = 0;                             ///< threads, for polarities side by side; 0: all cores
 };
@@ -62,15 +64,20 @@ struct FeOptions {
 /// Tied lifts wake: a run in which some of them reach fe2d::wake_index ends there, these become lift joints (with the mesh that
 /// their bond asks for), and the run begins anew from t = 0, until no run of any record wakes another. What slept has then
 /// stayed below its strength, so as a joint it would not have moved; what was found before is run again on the last model.
+///
+/// On few modes of the dam (FeOptions::reduced) static stages are those of the whole dam; no lift wakes, and no run is compared.
 class ContactRuns {
 public:
     /// Meshes, assembles and condenses. @param ready, watch  outlive this
-    /// @throws InputError, NotConverged, Interrupted
+    /// @throws InputError, NotConverged, Interrupted; UsageError for what a reduced run cannot do
     ContactRuns(const Ready& ready, const FeOptions& options, Watch& watch);
 
     const Ready& ready() const { return ready_; } ///< as given; its lifts that have woken are lift joints
     std::size_t passes_to_wake() const { return passes_to_wake_; } ///< models that a run left because lifts woke
     const fe2d::EarthquakeRun& model() const { return *model_; }
+    /// Why no run has an answer, a sentence; empty: there is a model.
+    bool reduced() const { return reduced_.has_value(); } ///< on few modes of the dam
+    const std::string& why_not() const { return reduced_ ? reduced_->why_not() : model_->why_not(); }
     const RigidModel& rigid() const { return rigid_; }
     const PressureProfile& uplift() const
     {
@@ -106,42 +113,11 @@ private:
     fe2d::RunOptions options_;
     CoarserMesh coarser_;
     std::optional<fe2d::EarthquakeRun> model_, exact_;
+    std::optional<fe2d::ReducedRun> reduced_; ///< on model_
     RigidModel rigid_;
     std::vector<sliding::Equilibrium> combinations_;
     std::vector<Found> found_; ///< by record; empty: no lift can wake
     std::size_t passes_to_wake_ = 0;
-};
-
-/// The same on few modes of the dam: static stages by the full model, the slip with an estimate of what the reduction
-/// changes.
-class ReducedRuns {
-public:
-    /// @param ready  prepared for a reduced run; outlives this, as the watch does
-    /// @throws UsageError for what a reduced run cannot do; InputError, NotConverged, Interrupted
-    ReducedRuns(const Ready& ready, const FeOptions& options, Watch& watch);
-
-    const fe2d::EarthquakeRun& full() const { return *full_; }
-    const RigidModel& rigid() const { return rigid_; }
-    const PressureProfile& uplift() const { return options_.uplift; }
-    const std::vector<sliding::Equilibrium>& combinations() const { return combinations_; } ///< Ready::combinations()
-    std::size_t whole() const;
-    const std::string& why_not() const { return model_->why_not(); } ///< no run of this model has an answer; else empty
-
-    using TakeRun = std::function<void(ReducedRecord& run)>;
-    std::vector<ReducedRecord> run(const TakeRun& take = {});
-
-private:
-    const Ready& ready_;
-    Watch& watch_;
-    std::optional<int> polarity_;
-    int jobs_;
-    fe2d::RunOptions options_;
-    int modes_;
-    std::optional<fe2d::EarthquakeRun> full_;
-    std::optional<fe2d::ReducedRun> model_;
-    CoarserMesh coarser_;
-    RigidModel rigid_;
-    std::vector<sliding::Equilibrium> combinations_;
 };
 
 /// Groups of runs, each of one model and one motion, that threads take one after the other. With a model whose runs gain by going in

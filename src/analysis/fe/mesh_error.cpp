@@ -89,8 +89,11 @@ MeshError CoarserMesh::error_of(const fe2d::EarthquakeRun& model, const fe2d::Ru
                                 const GroundMotion& motion)
 {
     MeshError result;
-    if (known_to_fail(run.status, run.slip_error, result) || !make(result, false)) return result;
-    const fe2d::RunResult coarse = full_->run_at(motion, model.steps_of(run));
+    const bool few_modes = run.modes > 0;
+    if (known_to_fail(run.status, run.slip_error, result) || !make(result, few_modes)) return result;
+    const fe2d::RunResult coarse =
+        few_modes ? reduced_->run(motion, {}, run.halvings, fe2d::TruncationEstimate::left_out)
+                  : full_->run_at(motion, model.steps_of(run));
     if (coarse.status != Status::at_rest || coarse.lifts.size() != run.lifts.size()) {
         no_answer(coarse.status, coarse.message, result);
         return result;
@@ -99,20 +102,6 @@ MeshError CoarserMesh::error_of(const fe2d::EarthquakeRun& model, const fe2d::Ru
     result.base = std::abs(run.slip - coarse.slip);
     for (std::size_t k = 0; k < run.lifts.size(); ++k)
         result.lifts.push_back(std::abs(run.lifts[k].slip - coarse.lifts[k].slip));
-    return result;
-}
-
-MeshError CoarserMesh::error_of(const fe2d::ReducedResult& run, const GroundMotion& motion)
-{
-    MeshError result;
-    if (known_to_fail(run.status, run.step_error, result) || !make(result, true)) return result;
-    const fe2d::ReducedResult coarse = reduced_->run(motion, {}, run.halvings, fe2d::TruncationEstimate::left_out);
-    if (coarse.status != Status::at_rest) {
-        no_answer(coarse.status, coarse.message, result);
-        return result;
-    }
-    result.check = MeshCheck::done;
-    result.base = std::abs(run.slip - coarse.slip);
     return result;
 }
 

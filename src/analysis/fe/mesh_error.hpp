@@ -43,9 +43,8 @@ public:
     /// @param progress  of the runs on it @param modes  of reduced runs
     CoarserMesh(const Ready& ready, bool wanted, Answer progress, Watch& watch, int modes = fe2d::default_modes);
 
-    /// @param run  of `model` with this motion
+    /// @param run  of `model` with this motion, or of few modes of its dam
     MeshError error_of(const fe2d::EarthquakeRun& model, const fe2d::RunResult& run, const GroundMotion& motion);
-    MeshError error_of(const fe2d::ReducedResult& run, const GroundMotion& motion);
 
 private:
     bool known_to_fail(Status status, double step_error, MeshError& result) const;

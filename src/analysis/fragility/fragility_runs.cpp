@@ -421,10 +421,8 @@ private:
 
     static std::vector<FinishedRow> rows_without_model(const MotionGroup& group)
     {
-        FeSlip none;
-        none.status = Status::not_resolved;
         std::vector<FinishedRow> rows;
-        for (const std::size_t id : group.ids) rows.push_back(fe_row(id, none));
+        for (const std::size_t id : group.ids) rows.push_back(fe_row(id, {}, false)); // not resolved
         return rows;
     }
 
@@ -446,28 +444,19 @@ private:
                 ids.push_back(id);
             }
         std::vector<FinishedRow> rows;
-        const auto put = [&](const auto& r, double slip_error) { // full runs and those on few modes
-            FeSlip slip;
-            slip.status = r.status;
-            slip.slip = reported(r.status, r.slip);
-            slip.max_slip = reported(r.status, r.max_slip);
-            slip.slip_error = reported(r.status, slip_error);
-            if (!r.stages.empty() && std::isfinite(r.stages.back().critical_friction))
-                slip.critical_friction = r.stages.back().critical_friction;
-            rows.push_back(fe_row(ids[rows.size()], slip));
-            put_base(r, rows.back().results);
+        const auto put = [&](const fe2d::RunResult& run) {
+            rows.push_back(fe_row(ids[rows.size()], run, false));
+            if (run.modes == 0) put_base(run, rows.back().results);
         };
         const InSolver timed;
         if (model.reduced) {
             for (const fe2d::Shaking& shaking : shakings) {
                 if (watch_.stop_asked()) break;
-                const fe2d::ReducedResult r =
-                    model.reduced->run(*shaking.motion, shaking.contact, {}, fe2d::TruncationEstimate::left_out);
-                put(r, r.step_error);
+                put(model.reduced->run(*shaking.motion, shaking.contact, {}, fe2d::TruncationEstimate::left_out));
             }
             return rows;
         }
-        for (const fe2d::RunResult& r : model.run->run_all(shakings)) put(r, r.slip_error);
+        for (const fe2d::RunResult& run : model.run->run_all(shakings)) put(run);
         return rows;
     }
 
@@ -481,7 +470,6 @@ private:
         if (r.after.status != fe2d::StageStatus::not_resolved && !r.after.name.empty())
             results.factor_after = std::min(r.after.sliding_factor, most_factor); // infinite without shear
     }
-    static void put_base(const fe2d::ReducedResult&, RowResults&) {}
 
     static Contact contact_of(const Ready& ready, const FragilityDraw& draw)
     {

@@ -27,14 +27,10 @@ ElasticScreening screen_elastic(const Ready& ready, int jobs, Watch& watch)
     try {
         const Ready elastic =
             prepare(std::move(given), Method::finite_elements, ready.pairs, {.seepage = ready.seepage, .stop = watch.stop()});
-        ReducedRuns all(elastic, {.mesh_error = false, .jobs = jobs}, watch);
+        ContactRuns all(elastic, {.mesh_error = false, .reduced = true, .jobs = jobs}, watch);
         out.why_not = all.why_not();
         if (!out.why_not.empty()) return out;
-        all.run([&](ReducedRecord& run) {
-            out.runs.push_back(as_contact_run(run));
-            out.runs.back().fe.history = {};
-            run.result.history = {};
-        });
+        out.runs = all.run([](ContactRun& run, const GroundMotion&) { run.fe.history = {}; });
         if (out.runs.size() < all.whole())
             out.why_not = fmt::format("Stopped after {} of {} runs.", out.runs.size(), all.whole());
     } catch (const InputError& error) {

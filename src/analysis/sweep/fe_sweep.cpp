@@ -39,24 +39,7 @@ struct PreparedModel {
 /// Variant, law, and whether reservoir.model = "auto" stays added mass, as on few modes of the dam.
 using ModelKey = std::tuple<std::size_t, FeLaw, bool>;
 
-/// Members that full and reduced runs have in common.
-template <class Result>
-FeSlip slip_of(const Result& r, double step_error)
-{
-    FeSlip slip;
-    slip.status = r.status;
-    if (!r.stages.empty() && std::isfinite(r.stages.back().critical_friction))
-        slip.critical_friction = r.stages.back().critical_friction;
-    slip.slip = reported(r.status, r.slip);
-    slip.max_slip = reported(r.status, r.max_slip);
-    slip.slip_error = reported(r.status, step_error);
-    slip.walked = walked_at_least(r.status, r.slip);
-    if (!r.history.time.empty()) slip.run_out = r.run_out;
-    return slip;
-}
-
-template <class Result>
-void count(const Result& r, FeSweepCounts& counts)
+void count(const fe2d::RunResult& r, FeSweepCounts& counts)
 {
     ++counts.runs;
     counts.static_failures += fails_statically(r.status);
@@ -90,7 +73,7 @@ Scene scene_of(const Sweep& in, const GridIndex& at)
 class FeGroups {
 public:
     FeGroups(const Sweep& inputs, const std::vector<FeGroup>& groups, Watch& watch, const BeginRows& begin,
-             const TakeSlips& take)
+             const TakeRuns& take)
         : in_(inputs), groups_(groups), meter_(watch), watch_(watch), begin_(begin), take_(take)
     {
         for (const FeGroup& group : groups) ++models_[key(group)].groups_left;
@@ -116,9 +99,7 @@ public:
                         }
                     run_prepared(model, together, counts);
                 } else {
-                    FeSlip none;
-                    none.status = Status::not_resolved;
-                    take_(together.front()->rows, std::vector<FeSlip>(together.front()->rows.size(), none));
+                    take_(together.front()->rows, std::vector<fe2d::RunResult>(together.front()->rows.size()));
                 }
             } catch (const Interrupted&) { // in the set-up: these rows are not finished
             }
@@ -220,26 +201,13 @@ private:
         for (std::size_t k = 0; k < together.size(); ++k)
             for (const std::size_t id : together[k]->rows) shakings.push_back({&motions[k], contact(model, id)});
         const std::vector<fe2d::RunResult> results = model.full->run_all(shakings);
-        auto r = results.begin();
+        std::size_t first = 0;
         for (const FeGroup* group : together) {
-            std::vector<FeSlip> slips;
-            for (std::size_t k = 0; k < group->rows.size(); ++k, ++r) {
-                slips.push_back(full_slip_of(*r));
-                count(*r, counts);
-            }
-            take_(group->rows, slips);
+            const std::span runs = std::span(results).subspan(first, group->rows.size());
+            for (const fe2d::RunResult& run : runs) count(run, counts);
+            take_(group->rows, runs);
+            first += runs.size();
         }
-    }
-
-    FeSlip full_slip_of(const fe2d::RunResult& r) const
-    {
-        FeSlip slip = slip_of(r, r.slip_error);
-        slip.events = r.events;
-        slip.anchors = r.anchors;
-        for (const fe2d::LiftResult& lift : r.lifts)
-            if (slip.slip) slip.lift_slip = std::max(slip.lift_slip.value_or(0.0), lift.largest_slip);
-        if (keep_histories() && slip.slip) slip.history = slip_history(r.history.time, r.history.slip);
-        return slip;
     }
 
     void run_reduced_group(const PreparedModel& model, const GroundMotion& motion, const FeGroup& group,
@@ -249,24 +217,19 @@ private:
         const auto estimate = in_.truncation_error ? TruncationEstimate::made : TruncationEstimate::left_out;
         for (const std::size_t& id : group.rows) {
             if (watch_.stop_asked()) return;
-            const fe2d::ReducedResult r = model.reduced->run(motion, contact(model, id), {}, estimate);
-            FeSlip slip = slip_of(r, r.step_error);
-            if (slip.slip && in_.truncation_error) slip.truncation_error = r.truncation_error;
-            if (keep_histories() && slip.slip) slip.history = slip_history(r.history.time, r.history.slip);
-            count(r, counts);
-            take_({&id, 1}, {&slip, 1});
+            const fe2d::RunResult run = model.reduced->run(motion, contact(model, id), {}, estimate);
+            count(run, counts);
+            take_({&id, 1}, {&run, 1});
             meter_.reached(static_cast<double>(&id - group.rows.data() + 1) / static_cast<double>(group.rows.size()));
         }
     }
-
-    bool keep_histories() const { return in_.tasks.rows() <= most_rows_with_history; }
 
     const Sweep& in_;
     const std::vector<FeGroup>& groups_;
     FeMeter meter_;
     Watch& watch_;
     const BeginRows& begin_;
-    const TakeSlips& take_;
+    const TakeRuns& take_;
     std::map<ModelKey, PreparedModel> models_;
 };
 
@@ -293,7 +256,7 @@ void check_fe_scenes(const Sweep& in)
 }
 
 FeSweepCounts run_fe_groups(const Sweep& inputs, const std::vector<FeGroup>& groups, int jobs, Watch& watch,
-                            const BeginRows& begin, const TakeSlips& take)
+                            const BeginRows& begin, const TakeRuns& take)
 {
     FeGroups runner(inputs, groups, watch, begin, take);
     GroupQueue queue(runner.models_of_groups(), thread_count(jobs));

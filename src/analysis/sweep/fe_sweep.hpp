@@ -4,7 +4,7 @@
 #include "analysis/sweep/sweep_tasks.hpp"
 #include "core/status.hpp"
 #include "core/watch.hpp"
-#include "fe2d/run/slide_watch.hpp"
+#include "fe2d/run/earthquake_run.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -32,19 +32,6 @@ constexpr std::size_t most_rows_with_history = 1000; ///< sweeps of more rows ke
 /// not evenly spaced
 SlipHistory slip_history(const std::vector<double>& time, const std::vector<double>& slip);
 
-/// What one FE contact run gives to a sweep. Empty: not computed, or the status has none.
-struct FeSlip {
-    Status status = Status::interrupted;                                ///< interrupted: not a result
-    std::optional<double> slip, max_slip, slip_error, truncation_error; ///< [m]
-    std::optional<double> critical_friction;                            ///< least mu of static equilibrium [-]
-    std::optional<double> lift_slip;            ///< largest |slip| of the lift joints on the way [m]; none: no joint
-    std::optional<double> walked;               ///< of a dam that goes on by itself, at least [m]
-    std::optional<fe2d::RunOutFigures> run_out; ///< none: it was not shaken
-    std::vector<EventSlip> events;              ///< fe2d::RunResult::events
-    std::vector<AnchorOutcome> anchors;         ///< fe2d::RunResult::anchors
-    SlipHistory history;                        ///< of sweeps of few rows
-};
-
 /// Counts of the FE runs of this process that do not depend on the number of threads, and processor seconds.
 struct FeSweepCounts {
     std::int64_t set_ups = 0; ///< meshes and matrices made
@@ -71,8 +58,8 @@ Sweep make_sweep(Scene scene, Axes axes);
 /// Scenes that FE cannot take are found here, before anything is computed. @throws UsageError
 void check_fe_scenes(const Sweep& inputs);
 
-/// Takes ids and their slips as soon as they are there; called from several threads.
-using TakeSlips = std::function<void(std::span<const std::size_t> ids, std::span<const FeSlip> slips)>;
+/// Takes finished runs as soon as they are there, by the ids of their rows; called from several threads.
+using TakeRuns = std::function<void(std::span<const std::size_t> ids, std::span<const fe2d::RunResult> runs)>;
 
 /// Told the rows of a group before they go through the earthquake; called from several threads.
 using BeginRows = std::function<void(std::span<const std::size_t> ids)>;
@@ -81,7 +68,7 @@ using BeginRows = std::function<void(std::span<const std::size_t> ids)>;
 /// groups comes up, and given back after the last; the frictions of a group go through the earthquake together.
 /// Results do not depend on the number of threads.
 FeSweepCounts run_fe_groups(const Sweep& inputs, const std::vector<FeGroup>& groups, int jobs, Watch& watch,
-                            const BeginRows& begin, const TakeSlips& take);
+                            const BeginRows& begin, const TakeRuns& take);
 
 /// All that the rows of a sweep depend on. Equal identities: equal rows, bit for bit, on one machine.
 struct SweepIdentity {

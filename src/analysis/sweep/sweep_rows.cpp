@@ -1,5 +1,8 @@
 #include "analysis/sweep/sweep_rows.hpp"
 
+#include "analysis/fe/contact_run.hpp"
+
+#include <algorithm>
 #include <cmath>
 
 namespace damslip {
@@ -145,28 +148,34 @@ void add_rigid_rows(const Scene& scene, const Grid& grid, std::span<const std::s
     }
 }
 
-FinishedRow fe_row(std::size_t id, const FeSlip& slip)
+FinishedRow fe_row(std::size_t id, const fe2d::RunResult& run, bool with_history)
 {
     RowResults results;
-    results.slip = slip.slip;
-    results.max_slip = slip.max_slip;
-    results.slip_error = slip.slip_error;
-    results.truncation_error = slip.truncation_error;
-    results.critical_friction = slip.critical_friction;
-    results.status = word(slip.status);
-    results.lift_slip = slip.lift_slip;
-    results.walked = slip.walked;
-    add_events_and_anchors(slip.events, slip.anchors, results);
-    if (const std::optional<fe2d::RunOutFigures>& f = slip.run_out) {
-        if (std::isfinite(f->thrust_over_friction)) results.thrust_over_friction = f->thrust_over_friction;
-        results.hops = f->hops;
-        results.hop_frequency = f->hop_frequency;
-        results.unloaded_share = f->unloaded_share;
-        results.end_rate = f->rate;
-        results.slip_shaking = f->slip_shaking;
-        results.slip_at_rest = f->slip_at_rest;
+    results.slip = reported(run.status, run.slip);
+    results.max_slip = reported(run.status, run.max_slip);
+    results.slip_error = reported(run.status, run.slip_error);
+    if (results.slip && run.modes > 0 && std::isfinite(run.truncation_error))
+        results.truncation_error = run.truncation_error;
+    if (!run.stages.empty() && std::isfinite(run.stages.back().critical_friction))
+        results.critical_friction = run.stages.back().critical_friction;
+    results.status = word(run.status);
+    for (const fe2d::LiftResult& lift : run.lifts)
+        if (results.slip) results.lift_slip = std::max(results.lift_slip.value_or(0.0), lift.largest_slip);
+    results.walked = walked_at_least(run.status, run.slip);
+    add_events_and_anchors(run.events, run.anchors, results);
+    if (!run.history.time.empty()) { // it was shaken
+        const fe2d::RunOutFigures& f = run.run_out;
+        if (std::isfinite(f.thrust_over_friction)) results.thrust_over_friction = f.thrust_over_friction;
+        results.hops = f.hops;
+        results.hop_frequency = f.hop_frequency;
+        results.unloaded_share = f.unloaded_share;
+        results.end_rate = f.rate;
+        results.slip_shaking = f.slip_shaking;
+        results.slip_at_rest = f.slip_at_rest;
     }
-    return {id, is_answer(slip.status), std::move(results), slip.history};
+    SlipHistory history;
+    if (with_history && results.slip) history = slip_history(run.history.time, run.history.slip);
+    return {id, is_answer(run.status), std::move(results), std::move(history)};
 }
 
 RowResults not_run()

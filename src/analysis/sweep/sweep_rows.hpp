@@ -13,8 +13,8 @@ FinishedRow rigid_row(const Scene& scene, const Grid& grid, std::size_t id);
 void add_rigid_rows(const Scene& scene, const Grid& grid, std::span<const std::size_t> ids,
                     std::vector<FinishedRow>& rows);
 
-/// The row of an FE run.
-FinishedRow fe_row(std::size_t id, const FeSlip& slip);
+/// The row of an FE run, of the whole dam or of few modes of it. @param with_history  of its slip
+FinishedRow fe_row(std::size_t id, const fe2d::RunResult& run, bool with_history);
 
 /// What has become of an anchor by the end: "snapped", "yielded" (at any time), else "elastic".
 std::string anchor_end(const AnchorHistory& history);

@@ -107,11 +107,11 @@ FeSweepCounts run_fe_rows(const Sweep& inputs, const Grid& grid, const std::vect
     watch.begin("sweep, finite elements", static_cast<double>(runs));
     FeSweepCounts counts = run_fe_groups(
         inputs, groups, jobs, watch, [&store](std::span<const std::size_t> ids) { store.begin(ids); },
-        [&](std::span<const std::size_t> ids, std::span<const FeSlip> slips) {
+        [&](std::span<const std::size_t> ids, std::span<const fe2d::RunResult> runs) {
             std::vector<FinishedRow> rows;
             for (std::size_t i = 0; i < ids.size(); ++i) {
-                if (slips[i].status == Status::interrupted) continue;
-                rows.push_back(fe_row(ids[i], slips[i]));
+                if (runs[i].status == Status::interrupted) continue;
+                rows.push_back(fe_row(ids[i], runs[i], inputs.tasks.rows() <= most_rows_with_history));
                 rows.back().results.yield = grid.yield(grid.tasks.index(ids[i]));
             }
             store.finish(std::move(rows));

@@ -56,7 +56,6 @@ StatusCount unanswered_runs(const AblationRuns& runs);
 /// @param given  the scene as read
 Page ablation_page(const Ablations& in, const Scene& given, const EffectPlan& effects);
 
-nlohmann::ordered_json ablation_json(const Ablations& in, const Scene& given, const EffectPlan& effects);
-Answer ablation_answer(const Ablations& in, const EffectPlan& effects);
+Answer ablation_answer(const Ablations& in, const Scene& given, const EffectPlan& effects);
 
 } // namespace damslip::pages

@@ -207,46 +207,34 @@ Page ablation_page(const Ablations& in, const Scene& given, const EffectPlan& ef
     return page;
 }
 
-nlohmann::ordered_json ablation_json(const Ablations& in, const Scene& given, const EffectPlan& effects)
+Answer ablation_answer(const Ablations& in, const Scene& given, const EffectPlan& effects)
 {
-    auto j = json_header("explain", given);
-    j["method"] = in.plan.method == Method::rigid_block ? "rigid" : "fe";
-    j["effects"] = json_of(effect_table(effects));
-    auto& a = j["ablation"];
-    a["removals"] = json_of(removal_table(in));
-    if (in.runs.step)
-        a["step"] = {{"substeps", in.runs.step->halvings},
-                     {"dt_s", in.runs.step->largest_dt},
-                     {"chosen", in.runs.step->chosen},
-                     {"error_from_substeps", in.runs.step->other}};
-    if (in.plan.method == Method::rigid_block) a["yield"] = json_of(yield_change_table(in));
-    a["changes"] = json_of(change_table_of_all(in));
-    a["notes"] = ablation_notes(in);
-    a["seconds"] = {{"jobs", in.runs.jobs}, {"scenes", json_of(seconds_table(in))}};
-    return j;
-}
-
-Answer ablation_answer(const Ablations& in, const EffectPlan& effects)
-{
-    Answer all;
-    all += in.plan.full.title + "\n\n" + texts({effect_table(effects), removal_table(in)}) + "\n";
-    if (in.plan.method == Method::rigid_block) {
-        const Table yields = yield_change_table(in);
-        const std::vector<std::string> columns{"effect", "yield_acceleration_m_s2", "change_percent"};
-        all.add(yields, {in.records.empty() ? columns : std::vector<std::string>(), "change_percent"},
-                text(yields) + "\n");
+    Answer all(json_header("explain", given));
+    all += in.plan.full.title + "\n\n";
+    const Table removals = removal_table(in), yields = yield_change_table(in), seconds = seconds_table(in);
+    const bool rigid = in.plan.method == Method::rigid_block;
+    all.set("method", rigid ? "rigid" : "fe");
+    all.add("effects", effect_table(effects));
+    nlohmann::ordered_json of_runs;
+    all.add("removals", removals, {.data = false});
+    of_runs["removals"] = json_of(removals);
+    if (const auto& step = in.runs.step)
+        of_runs["step"] = {{"substeps", step->halvings},
+                           {"dt_s", step->largest_dt},
+                           {"chosen", step->chosen},
+                           {"error_from_substeps", step->other}};
+    if (rigid) {
+        all.add("yield", yields, {.brief = in.records.empty(), .data = false});
+        of_runs["yield"] = json_of(yields);
     }
     const std::vector<std::size_t> order = worst_first(in);
-    for (std::size_t m = 0; m < order.size(); ++m) {
-        const Table changes = change_table(in, m);
-        if (m == order.front())
-            all.add(changes, {{"effect", "status", "slip_mm", "slip_error_mm", "change_mm", "change_error_mm",
-                               "change_percent", "remark"},
-                              "change_mm"});
-        else
-            all.add(changes);
-    }
-    all += text(seconds_table(in));
+    for (std::size_t m = 0; m < order.size(); ++m)
+        all.add("changes", change_table(in, m), {.brief = m == order.front(), .data = false});
+    all.add("seconds", seconds, {.data = false});
+    of_runs["changes"] = json_of(change_table_of_all(in));
+    of_runs["notes"] = ablation_notes(in);
+    of_runs["seconds"] = {{"jobs", in.runs.jobs}, {"scenes", json_of(seconds)}};
+    all.set("ablation", of_runs);
     all.headline_in_brief(headline(in));
     for (const std::string& note : ablation_notes(in)) all.note(note);
     return all;

@@ -63,18 +63,18 @@ void add_changes(const Ablations& in, std::size_t number, std::vector<ChangeRow>
 std::vector<ColumnOf<ChangeRow>> change_columns(const Ablations& in)
 {
     using R = ChangeRow;
-    const ColumnOf<R> slip_error{{"slip_error_mm", "± step", "mm", 2},
+    const ColumnOf<R> slip_error{in_brief({"slip_error_mm", "± step", "mm", 2}),
                                  [](const R&r) { return optional_cell(r.slip_error, mm); }},
-        change_error{{"change_error_mm", "± step", "mm", 2},
+        change_error{in_brief({"change_error_mm", "± step", "mm", 2}),
                      [](const R&r) { return optional_cell(r.change_error, mm); }};
     std::vector<ColumnOf<R>> columns{
-        {{"effect", "without"}, &R::name},
-        {{"status", "status"}, &R::status},
-        {{"slip_mm", "slip", "mm", 5}, [](const R& r) { return optional_cell(r.slip.value, mm); }}};
+        {in_brief({"effect", "without"}), &R::name},
+        {in_brief({"status", "status"}), &R::status},
+        {in_brief({"slip_mm", "slip", "mm", 5}), [](const R& r) { return optional_cell(r.slip.value, mm); }}};
     if (fe(in)) columns.push_back(slip_error);
-    columns.push_back({{"change_mm", "change", "mm", 4}, [](const R& r) { return optional_cell(r.slip.change, mm); }});
+    columns.push_back({ranking({"change_mm", "change", "mm", 4}), [](const R& r) { return optional_cell(r.slip.change, mm); }});
     if (fe(in)) columns.push_back(change_error);
-    columns.push_back({{"change_percent", "change", "%", 3}, [](const R& r) { return optional_cell(r.slip.percent); }});
+    columns.push_back({in_brief({"change_percent", "change", "%", 3}), [](const R& r) { return optional_cell(r.slip.percent); }});
     if (fe(in)) {
         columns.push_back(
             {{"crest_mm", "crest", "mm", 4}, [](const R& r) { return optional_cell(r.crest.value, mm); }});
@@ -90,7 +90,7 @@ std::vector<ColumnOf<ChangeRow>> change_columns(const Ablations& in)
                                [k](const R& r) { return optional_cell(r.lift(k).change, mm); }});
         }
     }
-    columns.push_back({{"remark", "remark"}, &R::remark});
+    columns.push_back({in_brief({"remark", "remark"}), &R::remark});
     return columns;
 }
 
@@ -144,10 +144,10 @@ Table yield_change_table(const Ablations& in)
     }
     return table_of<Row>(
         "Yield acceleration",
-        {{{"effect", "without"}, &Row::name},
-         {{"yield_acceleration_m_s2", "a_y", "m/s²", 6}, [](const Row& r) { return optional_cell(r.yield.value); }},
+        {{in_brief({"effect", "without"}), &Row::name},
+         {in_brief({"yield_acceleration_m_s2", "a_y", "m/s²", 6}), [](const Row& r) { return optional_cell(r.yield.value); }},
          {{"change_m_s2", "change", "m/s²", 4}, [](const Row& r) { return optional_cell(r.yield.change); }},
-         {{"change_percent", "change", "%", 3}, [](const Row& r) { return optional_cell(r.yield.percent); }},
+         {ranking({"change_percent", "change", "%", 3}), [](const Row& r) { return optional_cell(r.yield.percent); }},
          {{"critical_friction", "critical μ", "–", 6},
           [](const Row& r) { return optional_cell(r.critical_friction.value); }},
          {{"critical_friction_change", "change", "–", 4},

@@ -22,14 +22,12 @@ struct AccuracyReportInput {
     std::vector<MotionName> motions() const { return motion_names(scene, records); }
 };
 
-nlohmann::ordered_json accuracy_json(const AccuracyReportInput& input);
 Answer accuracy_answer(const AccuracyReportInput& input);
 
 /// The rungs as a CSV file, with what is finished.
 std::string accuracy_csv(const Scene& scene, const std::vector<RungResult>& results, const Judgement& judgement);
 
 /// One rung alone.
-nlohmann::ordered_json one_rung_json(const RungResult& result, const std::vector<MotionName>& motions);
 Answer one_rung_answer(const RungResult& result, const std::vector<MotionName>& motions);
 
 /// The ladder as a page: the answer, error against seconds, convergence of each model, the tables.
@@ -40,6 +38,9 @@ std::string figure_title(const Scene& scene, const std::vector<RecordPair>& reco
 
 /// One row per rung: slip, what is open, difference of models, deviation from the top rung, cost.
 Table rung_table(const std::vector<RungResult>& results, const Judgement& judgement);
+
+/// Those that no rung as fast beats, the finest first.
+Table front_table(const std::vector<RungResult>& results, const Judgement& judgement);
 
 /// One row per model with two rungs at least: its limit and the orders in which its rungs tend to it.
 Table model_table(const std::vector<RungResult>& results, const Judgement& judgement);

@@ -182,50 +182,36 @@ Page accuracy_page(const AccuracyReportInput& in)
 
 // The ladder as object, text and CSV.
 
-nlohmann::ordered_json accuracy_json(const AccuracyReportInput& in)
-{
-    const Judgement& judged = in.judgement;
-    auto j = json_header("accuracy", in.scene);
-    j["records"] = nlohmann::ordered_json::array();
-    for (const RecordPair& pair : in.records) j["records"].push_back(pair.files.name);
-    j["tolerance"] = in.tolerance;
-    j["governs"] = nullptr;
-    j["top"] = nullptr;
-    j["top_open"] = nullptr;
-    j["choice"] = nullptr;
-    if (judged.top) {
-        const MotionName motion = in.motions()[judged.motion];
-        j["governs"] = {{"record", motion.record}, {"polarity", motion.polarity}};
-        j["top"] = rung_id(in.results[*judged.top].rung);
-    }
-    if (judged.top_error) j["top_open"] = *judged.top_error;
-    if (judged.choice) j["choice"] = {{"rung", rung_id(in.results[*judged.choice].rung)}, {"command", in.command}};
-    j["rungs"] = json_of(rung_table(in.results, judged));
-    j["models"] = json_of(model_table(in.results, judged));
-    j["slips"] = json_of(slip_table(in.results, in.motions()));
-    j["messages"] = in.messages;
-    return j;
-}
-
 Answer accuracy_answer(const AccuracyReportInput& in)
 {
-    Answer all;
-    const Table rungs = rung_table(in.results, in.judgement), models = model_table(in.results, in.judgement);
+    const Judgement& judged = in.judgement;
+    Answer all(json_header("accuracy", in.scene));
     all += in.scene.title + "\n\n";
-    Table front = rungs; // no model level as fast deviates less
-    std::erase_if(front.rows, [&](const std::vector<Cell>& row) {
-        return !std::holds_alternative<bool>(row[static_cast<std::size_t>(
-            std::find_if(rungs.columns.begin(), rungs.columns.end(), [](const Column& c) { return c.key == "front"; }) -
-            rungs.columns.begin())]);
-    });
-    std::reverse(front.rows.begin(), front.rows.end()); // the finest first
-    front.title = "Model levels that none as fast beats";
-    all.add(front, {{"rung", "slip_mm", "error_mm", "deviation_percent", "seconds", "status"}}, text(rungs) + "\n");
-    all.add(models, {{"model", "limit_mm", "open_mm", "off_top_percent"}}, text(models) + "\n");
-    all += choice_sentence(in.results, in.judgement, in.tolerance) + "\n";
+    auto records = nlohmann::ordered_json::array();
+    for (const RecordPair& pair : in.records) records.push_back(pair.files.name);
+    all.set("records", records);
+    all.set("tolerance", in.tolerance);
+    nlohmann::ordered_json governs, top, top_open, choice; // null where there is none
+    if (judged.top) {
+        const MotionName motion = in.motions()[judged.motion];
+        governs = {{"record", motion.record}, {"polarity", motion.polarity}};
+        top = rung_id(in.results[*judged.top].rung);
+    }
+    if (judged.top_error) top_open = *judged.top_error;
+    if (judged.choice) choice = {{"rung", rung_id(in.results[*judged.choice].rung)}, {"command", in.command}};
+    all.set("governs", governs);
+    all.set("top", top);
+    all.set("top_open", top_open);
+    all.set("choice", choice);
+    all.add("rungs", rung_table(in.results, judged));
+    all.add("front", front_table(in.results, judged), {.text = false, .brief = true, .data = false});
+    all.add("models", model_table(in.results, judged), {.brief = true});
+    all.add("slips", slip_table(in.results, in.motions()), {.text = false});
+    all += choice_sentence(in.results, judged, in.tolerance) + "\n";
     all.headline_in_brief(headline(in));
     if (!in.command.empty()) all += "  " + in.command + "\n";
     all.next(in.command);
+    all.set("messages", in.messages);
     for (const std::string& message : in.messages) all.note(message);
     return all;
 }
@@ -236,22 +222,14 @@ std::string accuracy_csv(const Scene& scene, const std::vector<RungResult>& resu
                {"damslip " + program_version() + " accuracy", "scene " + scene_hash(scene)});
 }
 
-nlohmann::ordered_json one_rung_json(const RungResult& result, const std::vector<MotionName>& motions)
-{
-    auto j = json_header("accuracy");
-    j["rung"] = rung_id(result.rung);
-    j["runs"] = json_of(one_rung_table(result, motions));
-    j["status"] = word(result.status);
-    j["remark"] = result.remark;
-    return j;
-}
-
 Answer one_rung_answer(const RungResult& result, const std::vector<MotionName>& motions)
 {
-    Answer answer;
-    const Table table = one_rung_table(result, motions);
-    answer.add(table, {{"record", "polarity", "slip_mm", "seconds"}, "slip_mm"}, text(table));
+    Answer answer(json_header("accuracy"));
+    answer.set("rung", rung_id(result.rung));
+    answer.add("runs", one_rung_table(result, motions), {.brief = true});
     answer += "status: " + word(result.status) + "\n";
+    answer.set("status", word(result.status));
+    answer.set("remark", result.remark);
     answer.headline_in_brief({result.done() ? fmt::format("Model level {}: slip {:.4g} mm at most.",
                                                           rung_id(result.rung), result.largest_slip() / units::mm)
                                             : "Model level " + rung_id(result.rung) + " has no slip.",

@@ -62,25 +62,25 @@ std::vector<ColumnOf<RungRow>> rung_columns()
     };
     const auto megabytes = [](const R& r) { return r.result.done() ? optional_cell(r.result.bytes, 1e6) : Cell(); };
     const auto deviation = [](const R& r) { return r.verdict.deviation ? Cell(100.0 * *r.verdict.deviation) : Cell(); };
-    return {{{"rung", "model level"}, [](const R& r) { return rung_id(r.result.rung); }},
-            {{"slip_mm", "slip", "mm", 5}, [](const R& r) { return r.of_motion(r.result.slip); }},
+    return {{in_brief({"rung", "model level"}), [](const R& r) { return rung_id(r.result.rung); }},
+            {in_brief({"slip_mm", "slip", "mm", 5}), [](const R& r) { return r.of_motion(r.result.slip); }},
             {{"slip_16_mm", "16 %", "mm", 3}, [](const R& r) { return r.of_motion(r.result.low); }},
             {{"slip_84_mm", "84 %", "mm", 3}, [](const R& r) { return r.of_motion(r.result.high); }},
-            {{"error_mm", "± steps, mesh", "mm", 2}, [](const R& r) { return optional_cell(r.verdict.error, mm); }},
+            {in_brief({"error_mm", "± steps, mesh", "mm", 2}), [](const R& r) { return optional_cell(r.verdict.error, mm); }},
             {{"model_difference_mm", "model − top's", "mm", 3},
              [](const R& r) { return optional_cell(r.verdict.model_difference, mm); }},
             {{"off_top_mm", "slip − top's", "mm", 3}, [](const R& r) { return optional_cell(r.verdict.off_top, mm); }},
             {{"off_top_percent", "slip − top's", "%", 3}, &R::off_top_percent},
-            {{"deviation_percent", "deviation", "%", 3}, deviation},
+            {in_brief({"deviation_percent", "deviation", "%", 3}), deviation},
             {{"front", "front"}, [](const R& r) { return r.verdict.front ? Cell(true) : Cell(); }},
-            {{"seconds", "time", "s", 3}, if_done(&RungResult::seconds)},
+            {in_brief({"seconds", "time", "s", 3}), if_done(&RungResult::seconds)},
             {{"set_up_seconds", "set-up", "s", 2}, if_done(&RungResult::set_up_seconds)},
             {{"repeats", "runs"}, if_done(&RungResult::repeats)},
             {{"megabytes", "memory", "MB", 3}, megabytes},
             {{"unknowns", "unknowns"}, [](const R& r) { return optional_cell(r.result.unknowns); }},
             {{"time_step_s", "step", "s", 4}, [](const R& r) { return optional_cell(r.result.time_step); }},
             {{"steps", "steps"}, [](const R& r) { return optional_cell(r.result.steps); }},
-            {{"status", "status"}, [](const R& r) { return status_cell(r.result); }},
+            {in_brief({"status", "status"}), [](const R& r) { return status_cell(r.result); }},
             {{"remark", "remark"}, [](const R& r) { return remark_of(r.result); }}};
 }
 
@@ -110,6 +110,14 @@ Table rung_table(const std::vector<RungResult>& results, const Judgement& j)
     return t;
 }
 
+Table front_table(const std::vector<RungResult>& results, const Judgement& j)
+{
+    std::vector<RungRow> rows;
+    for (std::size_t i = results.size(); i-- > 0;)
+        if (j.rungs[i].front) rows.push_back({results[i], j.rungs[i], j});
+    return table_of("Model levels that none as fast beats", rung_columns(), rows);
+}
+
 Table model_table(const std::vector<RungResult>& results, const Judgement& j)
 {
     using M = ModelLimit;
@@ -126,10 +134,10 @@ Table model_table(const std::vector<RungResult>& results, const Judgement& j)
     };
     Table t = table_of<M>(
         "Models and their limits",
-        {{{"model", "model"}, &M::model},
-         {{"limit_mm", "limit", "mm", 5}, [&](const M& m) { return m.slip[j.motion] / mm; }},
-         {{"open_mm", "± open", "mm", 2}, [&](const M& m) { return m.open[j.motion] / mm; }},
-         {{"off_top_percent", "model − top's", "%", 3}, off_top},
+        {{in_brief({"model", "model"}), &M::model},
+         {in_brief({"limit_mm", "limit", "mm", 5}), [&](const M& m) { return m.slip[j.motion] / mm; }},
+         {in_brief({"open_mm", "± open", "mm", 2}), [&](const M& m) { return m.open[j.motion] / mm; }},
+         {in_brief({"off_top_percent", "model − top's", "%", 3}), off_top},
          {{"order_step", "order in step", "", 3}, [](const M& m) { return optional_cell(m.order_step); }},
          {{"order_mesh", "in mesh", "", 3}, [](const M& m) { return optional_cell(m.order_mesh); }},
          {{"order_penalty", "in 1/penalty", "", 3}, [](const M& m) { return optional_cell(m.order_penalty); }},
@@ -168,10 +176,10 @@ Table one_rung_table(const RungResult& result, const std::vector<MotionName>& mo
 {
     using Number = std::size_t;
     return table_of<Number>("Model level " + rung_id(result.rung),
-                            {{{"record", "record"}, [&](Number i) { return motions[i].record; }},
-                             {{"polarity", "polarity"}, [&](Number i) { return motions[i].polarity; }},
-                             {{"slip_mm", "slip", "mm", 6}, [&](Number i) { return result.slip[i] / mm; }},
-                             {{"seconds", "time, all motions", "s", 3}, [&](Number) { return result.seconds; }}},
+                            {{in_brief({"record", "record"}), [&](Number i) { return motions[i].record; }},
+                             {in_brief({"polarity", "polarity"}), [&](Number i) { return motions[i].polarity; }},
+                             {ranking({"slip_mm", "slip", "mm", 6}), [&](Number i) { return result.slip[i] / mm; }},
+                             {in_brief({"seconds", "time, all motions", "s", 3}), [&](Number) { return result.seconds; }}},
                             std::views::iota(Number{0}, result.slip.size()));
 }
 

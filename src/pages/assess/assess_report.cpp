@@ -179,14 +179,14 @@ Table level_table(const Assessment& a)
     using L = LevelSlip;
     return table_of<L>(
         "Slip by level, the worse polarity",
-        {{{"record", "record"}, &L::record},
-         {{"level", "level"}, [](const L& l) { return word(l.level); }},
-         {{"how", "how"}, &L::how},
-         {{"polarity", "polarity"}, [](const L& l) { return l.polarity ? Cell(std::int64_t{l.polarity}) : Cell(); }},
-         {{"status", "status"}, [](const L& l) { return word(l.status); }},
-         {{"slip_mm", "largest slip", "mm"}, [](const L& l) { return cell_in_mm(l.slip); }},
-         {{"low_mm", "from", "mm"}, [](const L& l) { return cell_in_mm(l.low); }},
-         {{"high_mm", "to", "mm"}, [](const L& l) { return cell_in_mm(l.high); }}},
+        {{in_brief({"record", "record"}), &L::record},
+         {in_brief({"level", "level"}), [](const L& l) { return word(l.level); }},
+         {in_brief({"how", "how"}), &L::how},
+         {in_brief({"polarity", "polarity"}), [](const L& l) { return l.polarity ? Cell(std::int64_t{l.polarity}) : Cell(); }},
+         {in_brief({"status", "status"}), [](const L& l) { return word(l.status); }},
+         {ranking({"slip_mm", "largest slip", "mm"}), [](const L& l) { return cell_in_mm(l.slip); }},
+         {in_brief({"low_mm", "from", "mm"}), [](const L& l) { return cell_in_mm(l.low); }},
+         {in_brief({"high_mm", "to", "mm"}), [](const L& l) { return cell_in_mm(l.high); }}},
         a.levels,
         {"from, to: numerical error of finite elements; 16 and 84 % of the regressions, which are of both "
          "polarities. The rigid block is exact for its record."});
@@ -197,10 +197,10 @@ Table assumption_table(const Assessment& a)
     using R = AssumptionRun;
     const double full = a.recommended ? a.recommended->slip : std::nan("");
     return table_of<R>("Finite elements with one assumption changed",
-                       {{{"assumption", "assumption"}, &R::what},
-                        {{"status", "status"}, [](const R& r) { return word(r.status); }},
-                        {{"slip_mm", "largest slip", "mm"}, [](const R& r) { return cell_in_mm(r.slip); }},
-                        {{"change_mm", "change", "mm"},
+                       {{in_brief({"assumption", "assumption"}), &R::what},
+                        {in_brief({"status", "status"}), [](const R& r) { return word(r.status); }},
+                        {in_brief({"slip_mm", "largest slip", "mm"}), [](const R& r) { return cell_in_mm(r.slip); }},
+                        {ranking({"change_mm", "change", "mm"}),
                          [&](const R& r) { return r.slip ? finite_cell(*r.slip - full, mm) : Cell(); }}},
                        a.assumptions, {"on the worst record and its polarity, without a second mesh."});
 }
@@ -268,58 +268,46 @@ Page assess_page(const Assessment& a, const Scene& given)
     return page;
 }
 
-nlohmann::ordered_json assess_json(const Assessment& a, const Scene& given)
-{
-    auto j = json_header("assess", given);
-    if (a.recommended) {
-        const Recommendation& r = *a.recommended;
-        j["recommended"] = {{"slip_mm", in_mm(r.slip)},     {"low_mm", in_mm(r.low)}, {"high_mm", in_mm(r.high)},
-                            {"level", word(r.level)},       {"record", r.record},     {"polarity", r.polarity},
-                            {"error_known", r.error_known}, {"range_of", r.from}};
-    } else {
-        j["recommended"] = nullptr;
-    }
-    j["verdict"] = word(a.verdict);
-    j["verdict_reason"] = a.verdict_reason;
-    const Headline headline = assess_headline(a);
-    j["headline"] = headline.sentence + " " + headline.verdict;
-    j["levels"] = json_of(level_table(a));
-    if (const auto planes = governing_planes(a)) j["planes"] = json_of(*planes);
-    j["assumptions"] = json_of(assumption_table(a));
-    for (const auto& [title, sentences] : answers(a)) j["answers"][title] = sentences;
-    j["limit_equilibrium"] = json_of(sliding::equilibrium_table(a.screening.combinations));
-    if (a.spectrum) j["response_spectrum"] = spectrum_json(*a.spectrum);
-    j["not_considered"] = {{"not_named", not_named(a)}, {"left_off", taken_off(a)}};
-    j["notes"] = assess_notes(a);
-    return j;
-}
-
 Answer assess_answer(const Assessment& a, const Scene& given)
 {
-    Answer all;
+    Answer all(json_header("assess", given));
     all += given.title + "\n\n";
-    const std::string gap = a.spectrum || !a.assumptions.empty() ? "\n" : "";
-    all.add(level_table(a),
-            {{"record", "level", "how", "polarity", "slip_mm", "low_mm", "high_mm", "status"}, "slip_mm"},
-            text(level_table(a)) + gap);
-    if (const auto planes = governing_planes(a))
-        all.add(*planes, {{"plane", "factor", "a_y_m_s2", "slip_m", "verdict", "governs"}, "slip_m"}, "\n" + text(*planes));
-    if (a.spectrum) all += text(spectrum_table(*a.spectrum)) + (a.assumptions.empty() ? "" : "\n");
-    if (!a.assumptions.empty())
-        all.add(assumption_table(a), {{"assumption", "slip_mm", "change_mm", "status"}, "change_mm"},
-                text(assumption_table(a)));
+    if (const auto& r = a.recommended)
+        all.set("recommended", {{"slip_mm", in_mm(r->slip)},     {"low_mm", in_mm(r->low)}, {"high_mm", in_mm(r->high)},
+                                {"level", word(r->level)},       {"record", r->record},     {"polarity", r->polarity},
+                                {"error_known", r->error_known}, {"range_of", r->from}});
+    else
+        all.set("recommended", nullptr);
+    all.set("verdict", word(a.verdict));
+    all.set("verdict_reason", a.verdict_reason);
+    const Headline headline = assess_headline(a);
+    all.set("headline", headline.sentence + " " + headline.verdict);
+    all.add("levels", level_table(a), {.brief = true});
+    if (const auto planes = governing_planes(a)) all.add("planes", *planes, {.brief = true});
+    if (a.spectrum) {
+        all += text(spectrum_table(*a.spectrum)) + "\n";
+        all.set("response_spectrum", spectrum_json(*a.spectrum));
+    }
+    all.add("assumptions", assumption_table(a), {.brief = true});
+    nlohmann::ordered_json said;
     for (const auto& [title, sentences] : answers(a)) {
+        said[title] = sentences;
         if (sentences.empty()) continue;
-        all += "\n" + title + "\n";
+        all += title + "\n";
         for (const std::string& s : sentences) all += "  " + s + "\n";
+        all += "\n";
         all.point(title, sentences.front());
     }
-    all += "\nNot considered, for the scene does not name it\n";
+    all.set("answers", said);
+    all.add("limit_equilibrium", sliding::equilibrium_table(a.screening.combinations), {.text = false});
+    all += "Not considered, for the scene does not name it\n";
     for (const std::string& s : not_named(a)) all += "  " + s + "\n";
     all += "\nOff by a choice of scene or method\n";
     for (const std::string& s : taken_off(a)) all += "  " + s + "\n";
+    all.set("not_considered", {{"not_named", not_named(a)}, {"left_off", taken_off(a)}});
     all += "\n";
-    all.headline(assess_headline(a));
+    all.headline(headline);
+    all.set("notes", assess_notes(a));
     for (const std::string& note : assess_notes(a)) all.note(note);
     return all;
 }

@@ -26,7 +26,6 @@ Headline assess_headline(const Assessment& a);
 
 /// @param given  the scene as read
 Page assess_page(const Assessment& a, const Scene& given);
-nlohmann::ordered_json assess_json(const Assessment& a, const Scene& given);
 Answer assess_answer(const Assessment& a, const Scene& given);
 
 } // namespace damslip::pages

@@ -90,18 +90,6 @@ std::string cost_text(const ContactCost& cost)
 
 } // namespace
 
-nlohmann::ordered_json explain_json(const Explained& in)
-{
-    auto j = json_header("explain", in.given, in.plan.scene_hash);
-    j["method"] = in.method;
-    j["effects"] = json_of(effect_table(in.plan));
-    if (in.model) j["model"] = json_of(model_counts(in));
-    if (in.model && !in.model->mesh.lifts.empty()) j["lift_joints"] = json_of(joint_table(in));
-    if (in.cost) j["contact"] = cost_json(*in.cost);
-    if (!in.notes.empty()) j["notes"] = in.notes;
-    return j;
-}
-
 Answer explain_answer(const Explained& in)
 {
     const auto& effects = in.plan.effects;
@@ -111,23 +99,28 @@ Answer explain_answer(const Explained& in)
     shown.rows.clear();
     for (std::size_t i = 0; i < effects.size(); ++i)
         if (effects[i].on) shown.rows.push_back(plan.rows[i]);
-    Answer all;
+    Answer all(json_header("explain", in.given, in.plan.scene_hash));
     all += in.given.title + "\n\n";
-    all.add(shown, {{"effect", "reason", "cost"}}, text(plan));
+    all.set("method", in.method);
+    all.add("effects", plan);
+    all.add("effects_on", shown, {.text = false, .brief = true, .data = false});
     const std::string sentence =
         fmt::format("{} of {} effects on; the others are neither read, built nor stored.", on, effects.size());
-    all += "\n" + sentence + "\n";
+    all += sentence + "\n\n";
     all.headline_in_brief({sentence});
-    if (in.model)
-        all += "\n" + text(model_counts(in)) +
-               "  tied base; `damslip fe` without --base tied keeps both sides of the contact plane.\n";
-    if (in.model && !in.model->mesh.lifts.empty()) all += "\n" + text(joint_table(in));
-    if (in.cost) all += "\n" + cost_text(*in.cost);
+    if (in.model) all.add("model", model_counts(in));
+    if (in.model) all += "  tied base; `damslip fe` without --base tied keeps both sides of the contact plane.\n\n";
+    if (in.model && !in.model->mesh.lifts.empty()) all.add("lift_joints", joint_table(in));
+    if (in.cost) {
+        all.set("contact", cost_json(*in.cost));
+        all += cost_text(*in.cost);
+    }
     if (in.cost && !in.cost->records.empty()) {
         double seconds = in.cost->set_up_seconds;
         for (const ContactCost::OfRecord& r : in.cost->records) seconds += 3 * r.pass_seconds;
         all.point("a run of damslip fe", fmt::format("{:.2g} s for each polarity, estimated", seconds));
     }
+    if (!in.notes.empty()) all.set("notes", in.notes);
     for (const std::string& note : in.notes) all.note(note);
     return all;
 }

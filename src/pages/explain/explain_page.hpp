@@ -23,7 +23,6 @@ struct Explained {
     std::vector<LiftJoint> lift_joints = {}; ///< of the model
 };
 
-nlohmann::ordered_json explain_json(const Explained& in);
 Answer explain_answer(const Explained& in);
 
 } // namespace damslip::pages

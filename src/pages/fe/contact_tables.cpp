@@ -32,8 +32,9 @@ double largest(const std::vector<double>& values)
     return *std::max_element(values.begin(), values.end());
 }
 
-const ContactColumn record_column{{"record", "record"}, &ContactRun::record};
-const ContactColumn polarity_column{{"polarity", "polarity"}, &ContactRun::polarity};
+using ContactColumn = ColumnOf<ContactRun>;
+const ContactColumn record_column{in_brief({"record", "record"}), &ContactRun::record};
+const ContactColumn polarity_column{in_brief({"polarity", "polarity"}), &ContactRun::polarity};
 
 } // namespace
 
@@ -223,37 +224,44 @@ std::vector<ContactColumn> crack_columns()
 
 } // namespace
 
-std::vector<ContactColumn> contact_run_columns(const std::optional<double>& allowable)
+RunColumns::RunColumns(const std::optional<double>& allowable)
+    : record(record_column), polarity(polarity_column),
+      status{in_brief({"status", "status"}), [](const ContactRun& r) { return word(r.fe.status); }},
+      slip{{"slip_mm", "slip at end (mean of base)", "mm", 5},
+           [](const ContactRun& r) { return slip_cell(r, r.fe.slip); }},
+      modes_error{{"truncation_error_mm", "± modes", "mm", 2},
+                  [](const ContactRun& r) { return slip_cell(r, r.fe.truncation_error); }},
+      step_error{{"slip_error_mm", "± step", "mm", 2}, [](const ContactRun& r) { return slip_cell(r, r.fe.slip_error); }},
+      mesh_error{{"mesh_error_mm", "± mesh", "mm", 2},
+                 [](const ContactRun& r) { return slip_cell(r, slip_error(r).mesh); }},
+      total_error{in_brief({"total_error_mm", "± total", "mm", 2}, "±"),
+                  [](const ContactRun& r) { return slip_cell(r, slip_error(r).total); }},
+      error_parts{in_brief({"error_parts", "error includes"}),
+                  [](const ContactRun& r) { return has_slip(r) ? Cell(slip_error(r).parts()) : Cell(); }},
+      max_slip{in_brief({"max_slip_m", "largest slip on the way", "m", 5}, "largest slip"),
+               [](const ContactRun& r) { return optional_cell(reported(r.fe.status, r.fe.max_slip)); }},
+      rigid_slip{in_brief({"slip_rigid_mm", "rigid block at end", "mm", 5}, "rigid block"),
+                 [](const ContactRun& r) {
+                     return r.rigid ? optional_cell(reported(r.rigid->status, r.rigid->slip), units::mm) : Cell();
+                 }},
+      verdict{in_brief({"verdict", "verdict"}), [=](const ContactRun& r) { return word(verdict_of(r, allowable)); }},
+      modes{{"modes", "modes"}, [](const ContactRun& r) { return r.fe.modes; }},
+      highest_frequency{{"highest_frequency_Hz", "up to", "Hz", 4},
+                        [](const ContactRun& r) { return r.fe.highest_frequency; }},
+      steps{{"steps", "steps"}, [](const ContactRun& r) { return r.fe.counts.steps; }},
+      dt{{"dt_s", "step", "s", 4}, [](const ContactRun& r) { return r.fe.dt; }},
+      unresolved{{"unresolved", "unresolved"}, [](const ContactRun& r) { return r.fe.counts.unresolved; }},
+      residual{{"residual", "residual", "–", 2}, [](const ContactRun& r) { return r.fe.counts.largest_residual; }},
+      energy_error{{"energy_error", "energy", "–", 2}, [](const ContactRun& r) { return r.fe.energy_error; }},
+      seconds{{"seconds", "time", "s", 3},
+              [](const ContactRun& r) { return r.fe.seconds.statics + r.fe.seconds.dynamics; }},
+      slid_at_least{{"walked_at_least_m", "slid at least", "m", 5},
+                    [](const ContactRun& r) { return optional_cell(walked_at_least(r.fe.status, r.fe.slip)); }},
+      slip_in_words{ranking(slip.column, "slip at end"), [of_slip = slip.value](const ContactRun& r) {
+                        const std::optional<double> at_least = walked_at_least(r.fe.status, r.fe.slip);
+                        return at_least ? Cell(fmt::format("at least {:.4g}", 1e3 * *at_least)) : of_slip(r);
+                    }}
 {
-    using R = ContactRun;
-    const auto rigid_slip = [](const R& r) {
-        const std::optional<double> slip = r.rigid ? reported(r.rigid->status, r.rigid->slip) : std::nullopt;
-        return slip ? Cell(1e3 * *slip) : Cell();
-    };
-    std::vector<ContactColumn> columns{
-            record_column,
-            polarity_column,
-            {{"status", "status"}, [](const R& r) { return word(r.fe.status); }},
-            {{"slip_mm", "slip at end (mean of base)", "mm", 5}, [](const R& r) { return slip_cell(r, r.fe.slip); }},
-            {{"slip_error_mm", "± step", "mm", 2}, [](const R& r) { return slip_cell(r, slip_error(r).step); }},
-            {{"mesh_error_mm", "± mesh", "mm", 2}, [](const R& r) { return slip_cell(r, slip_error(r).mesh); }},
-            {{"total_error_mm", "± total", "mm", 2}, [](const R& r) { return slip_cell(r, slip_error(r).total); }},
-            {{"error_parts", "error includes"},
-             [](const R& r) { return has_slip(r) ? Cell(slip_error(r).parts()) : Cell(); }},
-            {{"max_slip_m", "largest slip on the way", "m", 5},
-             [](const R& r) { return optional_cell(reported(r.fe.status, r.fe.max_slip)); }},
-            {{"slip_rigid_mm", "rigid block at end", "mm", 5}, rigid_slip},
-            {{"verdict", "verdict"}, [=](const R& r) { return word(verdict_of(r, allowable)); }},
-            {{"steps", "steps"}, [](const R& r) { return r.fe.counts.steps; }},
-            {{"dt_s", "step", "s", 4}, [](const R& r) { return r.fe.dt; }},
-            {{"unresolved", "unresolved"}, [](const R& r) { return r.fe.counts.unresolved; }},
-            {{"residual", "residual", "–", 2}, [](const R& r) { return r.fe.counts.largest_residual; }},
-            {{"energy_error", "energy", "–", 2}, [](const R& r) { return r.fe.energy_error; }},
-            {{"seconds", "time", "s", 3}, [](const R& r) { return r.fe.seconds.statics + r.fe.seconds.dynamics; }},
-            {{"walked_at_least_m", "slid at least", "m", 5},
-             [](const R& r) { return optional_cell(walked_at_least(r.fe.status, r.fe.slip)); }}};
-    for (ContactColumn& column : crack_columns()) columns.push_back(std::move(column));
-    return columns;
 }
 
 Table crack_table(const std::vector<ContactRun>& runs)
@@ -266,7 +274,8 @@ Table crack_table(const std::vector<ContactRun>& runs)
         "σ₁: largest principal tension away from base, joints and lifts, static state included, mean over about a "
         "characteristic length or over the element, whichever is larger."};
     if (tied) notes.push_back("tied lift: the one that comes nearest to its strength, 1 where it would slip or part.");
-    return table_of<ContactRun>("Where the concrete comes nearest to cracking", columns, runs, notes);
+    return table_of<ContactRun>("Where the concrete comes nearest to cracking", columns,
+                                runs | std::views::filter([](const ContactRun& r) { return r.fe.cracks.known; }), notes);
 }
 
 std::string crack_words(const ContactRun& r)
@@ -292,72 +301,74 @@ std::string crack_sentence(const std::vector<ContactRun>& runs)
                        most->fe.cracks.at.y);
 }
 
-void write_walked_slips(Table& t)
+namespace {
+
+bool few_modes(const std::vector<ContactRun>& runs)
 {
-    const auto place = [&](std::string_view key) {
-        return static_cast<std::size_t>(
-            std::find_if(t.columns.begin(), t.columns.end(), [=](const Column& c) { return c.key == key; }) -
-            t.columns.begin());
-    };
-    const std::size_t walked = place("walked_at_least_m"), slip = place("slip_mm");
-    for (std::vector<Cell>& row : t.rows)
-        if (const double* metres = std::get_if<double>(&row[walked]))
-            row[slip] = fmt::format("at least {:.4g}", 1e3 * *metres);
+    return std::any_of(runs.begin(), runs.end(), [](const ContactRun& r) { return r.fe.modes > 0; });
 }
 
-Table contact_run_table(const std::vector<ContactRun>& runs, const std::optional<double>& allowable)
+std::string run_title(const std::vector<ContactRun>& runs)
 {
     const bool gives_way =
         std::any_of(runs.begin(), runs.end(), [](const ContactRun& r) { return r.exact.has_value(); });
-    Table t = table_of(gives_way ? "Earthquake runs" : "Earthquake runs, exact contact", contact_run_columns(allowable),
-                       runs);
-    t.notes.push_back(
-        "slip: area mean over the base since the static state, positive downstream; ± step: what the time step leaves "
-        "open (estimate); ± mesh: change against elements of twice the size.");
-    for (std::string& note : error_notes(runs)) t.notes.push_back(std::move(note));
+    return fmt::format("Earthquake runs{}{}", few_modes(runs) ? ", reduced" : "", gives_way ? "" : ", exact contact");
+}
+
+std::vector<std::string> run_notes(const std::vector<ContactRun>& runs, const std::optional<double>& allowable)
+{
+    std::vector<std::string> notes{
+        fmt::format("slip: area mean over the base since the static state, positive downstream; {}± step: what the time "
+                    "step leaves open (estimate); ± mesh: change against elements of twice the size.",
+                    few_modes(runs) ? "± modes: what the elastic modes left out change (estimate), " : "")};
+    for (std::string& note : error_notes(runs)) notes.push_back(std::move(note));
     if (allowable)
-        t.notes.push_back(
+        notes.push_back(
             fmt::format("verdict: PASS or FAIL where the largest slip ± total lies on one side of the allowable "
                         "{:.4g} mm, of the base and of every lift joint.",
                         1e3 * *allowable));
-    t.notes.push_back("polarity -1: the record's horizontal component is flipped.");
-    t.notes.push_back("residual: largest complementarity residual over N'; energy: imbalance at the end over the "
-                      "largest term; time without the shared set-up.");
-    return t;
+    notes.push_back("polarity -1: the record's horizontal component is flipped.");
+    return notes;
 }
 
-Table with_columns(const Table& from, std::initializer_list<std::string_view> keys)
+} // namespace
+
+Table contact_run_table(const std::vector<ContactRun>& runs, const std::optional<double>& allowable)
 {
-    Table t;
-    t.title = from.title;
-    t.rows.resize(from.rows.size());
-    for (const std::string_view key : keys) {
-        const auto at =
-            std::find_if(from.columns.begin(), from.columns.end(), [&](const Column& c) { return c.key == key; });
-        t.columns.push_back(*at);
-        for (std::size_t i = 0; i < from.rows.size(); ++i)
-            t.rows[i].push_back(from.rows[i][static_cast<std::size_t>(at - from.columns.begin())]);
-    }
-    return t;
+    const RunColumns c(allowable);
+    std::vector<ContactColumn> columns{c.record, c.polarity, c.status, c.slip};
+    if (few_modes(runs)) columns.push_back(c.modes_error);
+    columns.insert(columns.end(),
+                   {c.step_error, c.mesh_error, c.total_error, c.error_parts, c.max_slip, c.rigid_slip, c.verdict});
+    if (few_modes(runs)) columns.insert(columns.end(), {c.modes, c.highest_frequency});
+    columns.insert(columns.end(),
+                   {c.steps, c.dt, c.unresolved, c.residual, c.energy_error, c.seconds, c.slid_at_least});
+    for (ContactColumn& column : crack_columns()) columns.push_back(std::move(column));
+    return table_of(run_title(runs), columns, runs);
 }
 
-Table answer_part(const Table& run_table)
+Table run_answer_table(const std::vector<ContactRun>& runs, const std::optional<double>& allowable)
 {
-    Table whole = run_table;
-    write_walked_slips(whole);
-    Table t = with_columns(whole, {"record", "polarity", "status", "slip_mm", "slip_error_mm", "mesh_error_mm",
-                                   "total_error_mm", "error_parts", "max_slip_m", "slip_rigid_mm", "verdict"});
-    t.notes.assign(run_table.notes.begin(), run_table.notes.end() - 1);
-    return t;
+    const RunColumns c(allowable);
+    std::vector<ContactColumn> columns{c.record, c.polarity, c.status, c.slip_in_words};
+    if (few_modes(runs)) columns.push_back(c.modes_error);
+    columns.insert(columns.end(),
+                   {c.step_error, c.mesh_error, c.total_error, c.error_parts, c.max_slip, c.rigid_slip, c.verdict});
+    return table_of(run_title(runs), columns, runs, run_notes(runs, allowable));
 }
 
-Table solution_part(const Table& run_table)
+Table run_solution_table(const std::vector<ContactRun>& runs, bool with_seconds)
 {
-    Table t = with_columns(
-        run_table, {"record", "polarity", "steps", "dt_s", "unresolved", "residual", "energy_error", "seconds"});
-    t.title = "How they were computed";
-    t.notes = {run_table.notes.back()};
-    return t;
+    const RunColumns c({});
+    std::vector<ContactColumn> columns{record_column, polarity_column};
+    if (few_modes(runs)) columns.insert(columns.end(), {c.modes, c.highest_frequency});
+    columns.insert(columns.end(), {c.steps, c.dt, c.unresolved, c.residual});
+    if (!few_modes(runs)) columns.push_back(c.energy_error);
+    if (with_seconds) columns.push_back(c.seconds);
+    return table_of("How they were computed", columns, runs,
+                    {std::string("residual: largest complementarity residual over N'; energy: imbalance at the end over "
+                                 "the largest term") +
+                     (with_seconds ? "; time without the shared set-up." : ".")});
 }
 
 Table contact_slip_table(const std::vector<ContactRun>& runs)
@@ -385,7 +396,7 @@ Table contact_slip_table(const std::vector<ContactRun>& runs)
          {{"largest_open_length_m", "open", "m", 4}, [](const R& r) { return largest(r.fe.history.open_length); }},
          {{"smallest_normal_force_kN_m", "least N'", "kN/m", 4},
           [](const R& r) { return 1e-3 * least(r.fe.history.normal_force); }}},
-        runs | std::views::filter([](const R& r) { return !r.fe.history.time.empty(); }),
+        runs | std::views::filter([](const R& r) { return !r.fe.history.slip_heel.empty(); }),
         {"slips at the end; rocking, opening and open length: largest on the way, rocking positive where the heel "
          "opens; N' effective, compression positive."});
 }
@@ -406,17 +417,19 @@ Table contact_lift_table(const std::vector<ContactRun>& runs, const std::optiona
     };
     return table_of<Row>(
         "Lift joints",
-        {{{"record", "record"}, [](const Row& r) { return r.run.record; }},
-         {{"polarity", "polarity"}, [](const Row& r) { return r.run.polarity; }},
-         {{"plane", "plane"}, [](const Row& r) { return r.lift.plane; }},
-         {{"name", "name"}, [](const Row& r) { return r.lift.name; }},
-         {{"slip_mm", "slip at end (mean)", "mm", 5}, [](const Row& r) { return slip_cell(r.run, r.lift.slip); }},
+        {{in_brief({"record", "record"}), [](const Row& r) { return r.run.record; }},
+         {in_brief({"polarity", "polarity"}), [](const Row& r) { return r.run.polarity; }},
+         {in_brief({"plane", "plane"}), [](const Row& r) { return r.lift.plane; }},
+         {in_brief({"name", "name"}), [](const Row& r) { return r.lift.name; }},
+         {in_brief({"slip_mm", "slip at end (mean)", "mm", 5}, "slip at end"),
+          [](const Row& r) { return slip_cell(r.run, r.lift.slip); }},
          {{"slip_error_mm", "± step", "mm", 2}, [](const Row& r) { return slip_cell(r.run, r.error.step); }},
          {{"mesh_error_mm", "± mesh", "mm", 2}, [](const Row& r) { return slip_cell(r.run, r.error.mesh); }},
-         {{"total_error_mm", "± total", "mm", 2}, [](const Row& r) { return slip_cell(r.run, r.error.total); }},
-         {{"largest_slip_mm", "largest slip on the way", "mm", 5},
+         {in_brief({"total_error_mm", "± total", "mm", 2}, "±"),
+          [](const Row& r) { return slip_cell(r.run, r.error.total); }},
+         {ranking({"largest_slip_mm", "largest slip on the way", "mm", 5}, "largest slip"),
           [](const Row& r) { return slip_cell(r.run, r.lift.largest_slip); }},
-         {{"verdict", "verdict"}, verdict},
+         {in_brief({"verdict", "verdict"}), verdict},
          {{"largest_rocking_rad", "rocking", "rad", 3}, [](const Row& r) { return r.lift.largest_rocking; }},
          {{"largest_opening_mm", "opening", "mm", 3}, [](const Row& r) { return 1e3 * r.lift.largest_opening; }},
          {{"smallest_normal_force_kN_m", "least N'", "kN/m", 4},

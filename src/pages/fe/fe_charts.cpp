@@ -404,25 +404,30 @@ auto of(const std::vector<double>& values)
 
 std::vector<RowColumn> history_columns(const fe2d::RunHistory& h)
 {
-    std::vector<RowColumn> all{{{"time_s", "time", "s", 6}, of(h.time)},
-                               {{"ground_accel_h_m_s2", "a_h", "m/s²", 5}, of(h.ground_h)},
-                               {{"ground_accel_v_m_s2", "a_v", "m/s²", 5}, of(h.ground_v)},
-                               {{"slip_m", "slip", "m", 6}, of(h.slip)},
-                               {{"slip_heel_m", "slip, heel", "m", 6}, of(h.slip_heel)},
-                               {{"slip_middle_m", "slip, middle", "m", 6}, of(h.slip_middle)},
-                               {{"slip_toe_m", "slip, toe", "m", 6}, of(h.slip_toe)},
-                               {{"rocking_rad", "rocking", "rad", 6}, of(h.rocking)},
-                               {{"crest_x_m", "crest x", "m", 6}, of(h.crest_x)},
-                               {{"normal_force_N_m", "N'", "N/m", 6}, of(h.normal_force)},
-                               {{"shear_force_N_m", "T", "N/m", 6}, of(h.shear_force)},
-                               {{"normal_position_m", "N' from heel", "m", 6}, of(h.normal_position)},
-                               {{"moment_N_m_m", "moment", "N m/m", 6}, of(h.moment)},
-                               {{"open_length_m", "open", "m", 4}, of(h.open_length)},
-                               {{"slipping_length_m", "slipping", "m", 4}, of(h.slipping_length)},
-                               {{"largest_opening_m", "opening", "m", 4}, of(h.largest_opening)}};
-    for (const auto& [column, value] : energy_columns_of(h.energy))
-        all.push_back({column, [&h, value](std::size_t row) { return value(h.energy[row]); }});
-    all.push_back({{"imbalance_J_m", "imbalance", "J/m", 4}, of(h.imbalance)});
+    std::vector<RowColumn> all;
+    const auto add = [&](Column column, const std::vector<double>& values) { // a run on few modes does not keep all
+        if (values.size() == h.time.size()) all.push_back({std::move(column), of(values)});
+    };
+    add({"time_s", "time", "s", 6}, h.time);
+    add({"ground_accel_h_m_s2", "a_h", "m/s²", 5}, h.ground_h);
+    add({"ground_accel_v_m_s2", "a_v", "m/s²", 5}, h.ground_v);
+    add({"slip_m", "slip", "m", 6}, h.slip);
+    add({"slip_heel_m", "slip, heel", "m", 6}, h.slip_heel);
+    add({"slip_middle_m", "slip, middle", "m", 6}, h.slip_middle);
+    add({"slip_toe_m", "slip, toe", "m", 6}, h.slip_toe);
+    add({"rocking_rad", "rocking", "rad", 6}, h.rocking);
+    add({"crest_x_m", "crest x", "m", 6}, h.crest_x);
+    add({"normal_force_N_m", "N'", "N/m", 6}, h.normal_force);
+    add({"shear_force_N_m", "T", "N/m", 6}, h.shear_force);
+    add({"normal_position_m", "N' from heel", "m", 6}, h.normal_position);
+    add({"moment_N_m_m", "moment", "N m/m", 6}, h.moment);
+    add({"open_length_m", "open", "m", 4}, h.open_length);
+    add({"slipping_length_m", "slipping", "m", 4}, h.slipping_length);
+    add({"largest_opening_m", "opening", "m", 4}, h.largest_opening);
+    if (h.energy.size() == h.time.size())
+        for (const auto& [column, value] : energy_columns_of(h.energy))
+            all.push_back({column, [&h, value](std::size_t row) { return value(h.energy[row]); }});
+    add({"imbalance_J_m", "imbalance", "J/m", 4}, h.imbalance);
     for (std::size_t k = 0; k < h.lifts.size(); ++k) {
         const fe2d::LiftHistory& lift = h.lifts[k];
         const std::string number = std::to_string(k + 1), key = "lift" + number + "_",

@@ -61,39 +61,16 @@ Eigen::Vector2d crest_displacement(const fe2d::Model& model, const Eigen::Vector
     return node_vectors(model.dofs, displacement).col(model.mesh.crest.back());
 }
 
-namespace {
-
-/// The worst run by record and polarity, with its status, slip, error and verdict; null without runs.
-nlohmann::ordered_json worst_json(const std::vector<ContactRun>& runs, const std::optional<double>& allowable)
+Answer begin_fe_answer(const FePageFrame& frame)
 {
-    if (runs.empty()) return nullptr;
-    const ContactRun& worst = worst_of(runs);
-    const std::optional<double> walked = walked_at_least(worst.fe.status, worst.fe.slip);
-    const auto number = [&](double metres, double unit) {
-        const std::optional<double> known = reported(worst.fe.status, metres);
-        return known ? nlohmann::ordered_json(*known / unit) : nlohmann::ordered_json();
-    };
-    return {{"record", worst.record},
-            {"polarity", worst.polarity},
-            {"status", word(worst.fe.status)},
-            {"max_slip_m", number(worst.fe.max_slip, 1.0)},
-            {"walked_at_least_m", walked ? nlohmann::ordered_json(*walked) : nlohmann::ordered_json()},
-            {"total_error_mm", number(slip_error(worst).total, units::mm)},
-            {"verdict", word(verdict_of(worst, allowable))}};
-}
-
-} // namespace
-
-FeAnswer begin_fe_answer(FeKind kind, const FePageFrame& frame)
-{
-    const Table counts = count_table(frame.model.counts, frame.water);
-    const std::optional<std::string> first = frame.slides ? base_note(frame.scene) : std::nullopt;
-    FeAnswer answer{json_header("fe", frame.scene, frame.plan.scene_hash)};
-    answer.text += (first ? *first + "\n\n" : "") + frame.scene.title + "\n\n" + text(counts);
-    answer.json["base"] = kind == FeKind::tied ? "tied" : "contact";
-    if (kind == FeKind::reduced) answer.json["reduced"] = true;
-    answer.json["effects"] = json_of(effect_table(frame.plan));
-    answer.json["model"] = json_of(counts);
+    Answer answer(json_header("fe", frame.scene, frame.plan.scene_hash));
+    if (const std::optional<std::string> first = frame.slides ? base_note(frame.scene) : std::nullopt)
+        answer += *first + "\n\n";
+    answer += frame.scene.title + "\n\n";
+    answer.set("base", frame.slides ? "contact" : "tied");
+    if (frame.reduced) answer.set("reduced", true);
+    answer.add("effects", effect_table(frame.plan), {.text = false});
+    answer.add("model", count_table(frame.model.counts, frame.water));
     return answer;
 }
 
@@ -103,18 +80,10 @@ Verdict joined_verdict(const Headline& headline, const std::vector<ContactRun>& 
     return headline.outcome == Outcome::fail ? Verdict::fail : verdict_of(runs, allowable);
 }
 
-void add_verdict(const Headline& headline, const std::vector<ContactRun>& runs, const std::optional<double>& allowable,
-                 FeAnswer& answer)
+void end_fe_answer(const std::vector<std::string>& messages, Answer& answer)
 {
-    answer.json["headline"] = headline.sentence;
-    answer.json["verdict"] = word(joined_verdict(headline, runs, allowable));
-    answer.json["worst"] = worst_json(runs, allowable);
-}
-
-void end_fe_answer(const std::vector<std::string>& messages, FeAnswer& answer)
-{
-    answer.json["messages"] = messages;
-    for (const std::string& message : messages) answer.text.note(message);
+    answer.set("messages", messages);
+    for (const std::string& message : messages) answer.note(message);
 }
 
 std::string run_file(const std::string& kind, const Scene& scene, const std::string& record, const std::string& suffix)
@@ -143,11 +112,11 @@ void FieldSeries::write_collection() const
     if (!folder_.empty() && !entries_.empty()) fe2d::write_pvd(folder_ / "fields.pvd", entries_);
 }
 
-void write_fe_files(const std::filesystem::path& folder, const Scene& scene, const FeAnswer& answer,
+void write_fe_files(const std::filesystem::path& folder, const Scene& scene, const Answer& answer,
                     const FieldSeries& fields, const Page& page)
 {
     fields.write_collection();
-    write_file(folder / "summary.json", answer.json.dump(2) + "\n");
+    answer.write(folder, {});
     write_file(folder / "scene.resolved.toml", resolved_toml(scene));
     write_file(folder / "report.html", page_html(page));
 }

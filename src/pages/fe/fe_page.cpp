@@ -65,20 +65,6 @@ std::vector<Section> add_worse_polarities(const std::vector<ContactRun>& runs, s
     return others;
 }
 
-Table without_seconds(Table table)
-{
-    const auto at = std::find_if(table.columns.begin(), table.columns.end(),
-                                 [&](const Column& column) { return column.key == "seconds"; });
-    if (at == table.columns.end()) return table;
-    const auto k = at - table.columns.begin();
-    table.columns.erase(at);
-    for (std::vector<Cell>& row : table.rows) row.erase(row.begin() + k);
-    for (std::string& note : table.notes)
-        if (const auto end = note.find("; time without"); end != std::string::npos) note = note.substr(0, end) + ".";
-    std::erase_if(table.notes, [](const std::string& note) { return note.starts_with("time without"); });
-    return table;
-}
-
 namespace {
 
 constexpr double MPa = 1e6;
@@ -190,17 +176,17 @@ Table mesh_table(const fe2d::Mesh& mesh)
     const std::vector<Row> rows{{mesh, fe2d::measure_quality(mesh)}};
     Table t = table_of<Row>(
         "Mesh",
-        {{{"nodes", "nodes"}, [](const Row& r) { return count_cell(r.mesh.nodes.size()); }},
-         {{"quadrilaterals", "quadrilaterals"}, [](const Row& r) { return r.quality.quadrilaterals; }},
-         {{"triangles", "triangles"}, [](const Row& r) { return r.quality.triangles; }},
-         {{"dam_elements", "in the dam"}, [](const Row& r) { return r.mesh.dam_element_count; }},
-         {{"base_nodes_dam", "base, dam"}, [](const Row& r) { return count_cell(r.mesh.contact.dam_nodes.size()); }},
-         {{"base_nodes_rock", "base, rock"}, [](const Row& r) { return count_cell(r.mesh.contact.rock_nodes.size()); }},
+        {{in_brief({"nodes", "nodes"}), [](const Row& r) { return count_cell(r.mesh.nodes.size()); }},
+         {in_brief({"quadrilaterals", "quadrilaterals"}), [](const Row& r) { return r.quality.quadrilaterals; }},
+         {in_brief({"triangles", "triangles"}), [](const Row& r) { return r.quality.triangles; }},
+         {in_brief({"dam_elements", "in the dam"}), [](const Row& r) { return r.mesh.dam_element_count; }},
+         {in_brief({"base_nodes_dam", "base, dam"}), [](const Row& r) { return count_cell(r.mesh.contact.dam_nodes.size()); }},
+         {in_brief({"base_nodes_rock", "base, rock"}), [](const Row& r) { return count_cell(r.mesh.contact.rock_nodes.size()); }},
          {{"smallest_edge_m", "smallest edge", "m", 4}, [](const Row& r) { return r.quality.smallest_edge; }},
          {{"largest_edge_m", "largest edge", "m", 4}, [](const Row& r) { return r.quality.largest_edge; }},
-         {{"smallest_angle_deg", "smallest angle", "deg", 4},
+         {in_brief({"smallest_angle_deg", "smallest angle", "deg", 4}),
           [](const Row& r) { return r.quality.smallest_angle / units::degree; }},
-         {{"smallest_scaled_jacobian", "scaled Jacobian", "-", 3},
+         {in_brief({"smallest_scaled_jacobian", "scaled Jacobian", "-", 3}),
           [](const Row& r) { return r.quality.smallest_scaled_jacobian; }}},
         rows);
     if (!mesh.has_rock())

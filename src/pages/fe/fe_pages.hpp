@@ -36,9 +36,15 @@ const std::vector<ColumnOf<fe2d::Energy>>& energy_columns();
 /// The same, and those of the joints' laws that are not zero in some row.
 std::vector<ColumnOf<fe2d::Energy>> energy_columns_of(const std::vector<fe2d::Energy>& rows);
 
-/// Columns of contact_run_table(); runs on few modes share them.
-using ContactColumn = ColumnOf<ContactRun>;
-std::vector<ContactColumn> contact_run_columns(const std::optional<double>& allowable);
+/// The columns of a run, each by its name: tables of runs are made of some of them.
+struct RunColumns {
+    using C = ColumnOf<ContactRun>;
+    explicit RunColumns(const std::optional<double>& allowable); ///< slip [m]
+
+    C record, polarity, status, slip, modes_error, step_error, mesh_error, total_error, error_parts, max_slip, rigid_slip, verdict,
+        modes, highest_frequency, steps, dt, unresolved, residual, energy_error, seconds, slid_at_least;
+    C slip_in_words; ///< for people: "at least 512" of a dam that goes on by itself
+};
 
 // One row per run (or stage).
 Table contact_stage_table(const std::vector<ContactRun>& runs);
@@ -55,20 +61,13 @@ Table contact_energy_table(const std::vector<ContactRun>& runs); ///< terms at t
 /// Slip with the ground moving and at rest, and what pays for it (fe2d::SlideWatch).
 Table run_out_table(const std::vector<ContactRun>& runs);
 
-/// For people: "walked >= 512" in place of a slip that a dam which goes on by itself has not.
-void write_walked_slips(Table& run_table);
-
-/// Of contact_run_table() and the table of reduced runs.
-extern const InBrief run_columns_in_brief;
 /// What governs the slip of contact runs, and what is to be looked at.
 void add_points(const Scene& scene, const std::vector<ContactRun>& runs, Answer& answer);
 
-/// Some columns of a table, without its notes. @pre it has them
-Table with_columns(const Table& from, std::initializer_list<std::string_view> keys);
-
-/// Columns of contact_run_table() for people: the answer, and how it was computed.
-Table answer_part(const Table& run_table);
-Table solution_part(const Table& run_table);
+/// What contact_run_table() has for people: the answer, and how it was computed.
+Table run_answer_table(const std::vector<ContactRun>& runs, const std::optional<double>& allowable);
+/// @param with_seconds  false: the same scene gives the same table
+Table run_solution_table(const std::vector<ContactRun>& runs, bool with_seconds);
 
 /// Tension away from joints, and tied lifts; the same columns end contact_run_table().
 Table crack_table(const std::vector<ContactRun>& runs);
@@ -137,6 +136,7 @@ struct FePageFrame {
     std::string kind;              ///< for the subtitle: "finite elements with contact"
     std::string method;            ///< for the provenance
     bool slides = true;            ///< false: the base is bonded
+    bool reduced = false;          ///< on few modes of the dam
 };
 
 /// Title, what the records say of themselves, the section with its mesh.
@@ -150,9 +150,6 @@ std::vector<Section> add_worse_polarities(const std::vector<ContactRun>& runs, s
 /// Records with spectra, effects, the model's counts and further tables, scene and provenance.
 void end_fe_page(const FePageFrame& frame, const std::vector<GroundMotion>& motions, const std::vector<Table>& tables,
                  Page& page);
-
-/// A table of runs without its seconds, which would make every report of the same scene another file.
-Table without_seconds(Table table);
 
 /// The mesh of an FE run: its lines in the section, and stresses on it in some states.
 
@@ -198,27 +195,15 @@ Eigen::MatrixXd principal_stresses(const Eigen::Matrix3Xd& stress);
 /// Displacements of the unknowns as one column (x, y) per node; fixed nodes stay at zero.
 Eigen::MatrixXd node_vectors(const fe2d::DofMap& dofs, const Eigen::VectorXd& unknowns);
 
-enum class FeKind { contact, reduced, tied };
-
-/// The answer of `fe`: one object for --json and summary.json, and text for a terminal.
-struct FeAnswer {
-    nlohmann::ordered_json json;
-    Answer text = {};
-};
-
 /// Scene, base, effects and counts of the model.
-FeAnswer begin_fe_answer(FeKind kind, const FePageFrame& frame);
+Answer begin_fe_answer(const FePageFrame& frame);
 
 /// FAIL where the headline says so, of the slip or of the load combinations; else verdict_of() the runs.
 Verdict joined_verdict(const Headline& headline, const std::vector<ContactRun>& runs,
                        const std::optional<double>& allowable);
 
-/// Headline, verdict and worst run, in the object.
-void add_verdict(const Headline& headline, const std::vector<ContactRun>& runs, const std::optional<double>& allowable,
-                 FeAnswer& answer);
-
 /// Messages last; in the text as notes.
-void end_fe_answer(const std::vector<std::string>& messages, FeAnswer& answer);
+void end_fe_answer(const std::vector<std::string>& messages, Answer& answer);
 
 /// Name of a file of one run, without its ending: "history_El_Centro_NS_+1". Records
 /// whose names would give the same file get a hash of the name.
@@ -243,7 +228,7 @@ private:
 };
 
 /// summary.json, fields.pvd, the resolved scene and report.html.
-void write_fe_files(const std::filesystem::path& folder, const Scene& scene, const FeAnswer& answer,
+void write_fe_files(const std::filesystem::path& folder, const Scene& scene, const Answer& answer,
                     const FieldSeries& fields, const Page& page);
 
 /// A run over time for ParaView.
@@ -271,9 +256,9 @@ std::string write_frames(const std::filesystem::path& folder, const FrameModel& 
 /// the earthquake, a slip of base or lift joint surely above the allowable or without end, in any of the runs. Unresolved:
 /// a run, or the state after it, without an answer, or an allowable slip within the error.
 /// Joined with the load combinations whose checks fail, the state after the earthquake of the runs among them.
-/// @param combinations  Ready::combinations() @param step  what the step's part of the error holds
+/// @param combinations  Ready::combinations()
 Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs,
-                     const std::vector<sliding::Equilibrium>& combinations = {}, const std::string& step = "step");
+                     const std::vector<sliding::Equilibrium>& combinations = {});
 
 /// Slips, friction, opening of the worst run: for the top of the page.
 std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& scene,
@@ -291,6 +276,7 @@ public:
         const RigidModel& rigid;
         const PressureProfile& uplift;                       ///< under the base before the earthquake
         std::vector<sliding::Equilibrium> combinations = {}; ///< Ready::combinations()
+        bool reduced = false;                                ///< on few modes of the dam
     };
     explicit FeReport(const Input& input);
 
@@ -310,7 +296,7 @@ private:
 };
 
 /// What the page, and the answer, of contact runs begin from.
-FePageFrame contact_frame(const FeReport::Input& input);
+FePageFrame contact_frame(const FeReport::Input& input, const std::vector<ContactRun>& runs);
 
 /// What has to be said of scene and runs beside the tables.
 /// @param of_rock  warnings on the rock
@@ -330,38 +316,13 @@ std::vector<std::string> contact_messages(const Scene& scene, const std::vector<
 std::vector<std::string> bond_messages(const Scene& scene, const fe2d::Mesh& mesh);
 
 /// All runs of one call as the answer of `fe`. @param spread  spread_line()
-FeAnswer contact_answer(const FeReport::Input& input, const std::vector<ContactRun>& runs,
+Answer contact_answer(const FeReport::Input& input, const std::vector<ContactRun>& runs,
                         const std::vector<std::string>& messages, const std::string& spread = {});
 
 /// What is kept of one run beside its figures: its tables as CSV files, and fields at the end.
 /// @param folder  empty: no files
 void keep_contact_run(const std::filesystem::path& folder, const FeReport::Input& input, const ContactRun& run,
                       FieldSeries& fields);
-
-/// What answer and page of reduced runs are made from.
-struct ReducedReportInput {
-    const Scene& scene; ///< as the plan calls for it
-    const EffectPlan& plan;
-    const std::vector<RecordPair>& records;
-    const fe2d::EarthquakeRun& full;
-    const RigidModel& rigid;
-    const PressureProfile& uplift; ///< under the base before the earthquake
-    const std::vector<ReducedRecord>& runs;
-    const std::vector<std::string>& messages;
-    std::vector<sliding::Equilibrium> combinations = {}; ///< Ready::combinations()
-};
-
-/// What has to be said of scene and runs beside the tables.
-std::vector<std::string> reduced_messages(const Scene& scene, const std::vector<ReducedRecord>& runs);
-
-FeAnswer reduced_answer(const ReducedReportInput& input);
-
-/// The history of one run as a CSV file. @param hash  of the scene (EffectPlan::scene_hash)
-void write_reduced_history(const std::filesystem::path& folder, const Scene& scene, const std::string& hash,
-                           const ReducedRecord& run);
-
-/// Slip beside the rigid block's, crest and forces of each record; errors by modes and step.
-Page reduced_page(const ReducedReportInput& input);
 
 /// The rock below a dam that slides, as answers and pages name it beside the slip.
 
@@ -411,7 +372,7 @@ std::optional<Chart> base_water_chart(const RunView& view);
 FePageFrame tied_frame(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records,
                        const fe2d::Model& model, const fe2d::FluidModel* water);
 
-FeAnswer tied_answer(const FePageFrame& frame, const fe2d::StaticSolution& statics, const std::vector<TiedRun>& runs);
+Answer tied_answer(const FePageFrame& frame, const fe2d::StaticSolution& statics, const std::vector<TiedRun>& runs);
 
 /// The history of one run as a CSV file. @param hash  of the scene (EffectPlan::scene_hash)
 void write_tied_history(const std::filesystem::path& folder, const Scene& scene, const std::string& hash,

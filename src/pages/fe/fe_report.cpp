@@ -19,6 +19,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 namespace damslip::pages {
 
@@ -76,8 +77,9 @@ std::string two_digits(double metres)
 }
 
 /// ", ± 6.1 mm (step 0.18, mesh 5.9)"
-std::string error_text(const SlipError& e, const std::string& step)
+std::string error_text(const SlipError& e)
 {
+    const std::string step = e.modes ? "step and modes" : "step";
     if (std::isnan(e.step)) return ", no error estimate (the step is fixed)";
     if (std::isnan(e.total))
         return fmt::format(", ± {} mm by the {}, that of the mesh is not known", two_digits(e.step), step);
@@ -95,7 +97,7 @@ double factor_after(const std::vector<ContactRun>& runs)
     return least;
 }
 
-std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& step)
+std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& runs)
 {
     const ContactRun& worst = worst_of(runs);
     const std::optional<double> most = reported(worst.fe.status, worst.fe.max_slip);
@@ -117,7 +119,7 @@ std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& run
                                        over.empty() ? record_of(worst) : "any of " + over)
                          : fmt::format("The {} slides {:.4g} mm at most by finite elements{} ({})", sliding_body(scene),
                                        slip / mm, over.empty() ? "" : " over " + over, record_of(worst));
-    out += error_text(slip_error(worst), step);
+    out += error_text(slip_error(worst));
     if (const LiftSlip lift = largest_lift_slip(runs); lift.slip > no_slip)
         out += fmt::format("; lift joint {} {:.4g} mm{}", lift.name, lift.slip / mm,
                            std::isfinite(lift.error) ? fmt::format(" ± {} mm", two_digits(lift.error)) : "");
@@ -197,6 +199,10 @@ std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& sce
     list.emplace_back("Friction μ", fmt::format("{:.4g}", scene.contact.friction));
     if (!worst.fe.stages.empty())
         list.emplace_back("Needs statically μ ≥", fmt::format("{:.4g}", worst.fe.stages.back().critical_friction));
+    if (worst.fe.modes > 0) {
+        list.emplace_back("Elastic modes", fmt::format("{}", worst.fe.modes));
+        return list;
+    }
     double open = 0.0;
     for (const ContactRun& r : runs)
         for (const double length : r.fe.history.open_length) open = std::max(open, length);
@@ -207,13 +213,13 @@ std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& sce
 namespace {
 
 /// Without the load combinations.
-Headline slip_headline(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& step)
+Headline slip_headline(const Scene& scene, const std::vector<ContactRun>& runs)
 {
     if (runs.empty()) return {"No earthquake was run.", Outcome::none, "No answer."};
     if (const ContactRun* r = find(runs, [](const ContactRun& run) { return fails_statically(run.fe.status); }))
         return {"The dam has no equilibrium without any earthquake. " + r->fe.message, Outcome::fail, "FAIL"};
     const std::optional<double>& allowable = scene.criteria.allowable_slip;
-    const std::string cracks = crack_sentence(runs), sentence = slip_sentence(scene, runs, step) + remarks(runs) + cracks;
+    const std::string cracks = crack_sentence(runs), sentence = slip_sentence(scene, runs) + remarks(runs) + cracks;
     const Verdict verdict = verdict_of(runs, allowable);
     if (verdict == Verdict::fail) return {sentence, Outcome::fail, "FAIL"};
     if (const ContactRun* r = find(runs, [](const ContactRun& run) { return !is_answer(run.fe.status); }))
@@ -231,9 +237,9 @@ Headline slip_headline(const Scene& scene, const std::vector<ContactRun>& runs, 
 } // namespace
 
 Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs,
-                     const std::vector<sliding::Equilibrium>& combinations, const std::string& step)
+                     const std::vector<sliding::Equilibrium>& combinations)
 {
-    return with_failed_checks(slip_headline(scene, runs, step), failed_words(scene, runs, combinations));
+    return with_failed_checks(slip_headline(scene, runs), failed_words(scene, runs, combinations));
 }
 
 FeReport::FeReport(const Input& input) : in_(input), stresses_(input.model) {}
@@ -244,7 +250,8 @@ void FeReport::add(const ContactRun& run, const GroundMotion& motion)
     const std::size_t number = sections_.size() + 1;
     Section section{"Record " + run.label(), {}, Fold::open};
     if (!run.fe.message.empty()) section.parts.push_back(Paragraph{run.fe.message});
-    if (run.fe.history.time.size() < 2 || run.fe.history.by_pair.pairs == 0) {
+    const bool of_pairs = run.fe.history.by_pair.pairs > 0;
+    if (run.fe.history.time.size() < 2 || (!of_pairs && run.fe.modes == 0)) {
         sections_.push_back(std::move(section));
         return;
     }
@@ -254,35 +261,40 @@ void FeReport::add(const ContactRun& run, const GroundMotion& motion)
     const RunView view{run, rigid ? &*rigid : nullptr, in_.scene.criteria.allowable_slip,
                        fmt::format("record{}", number), in_.records.size() * (run.both ? 2 : 1)};
     for (Chart& chart : history_charts(view)) section.parts.emplace_back(std::move(chart));
-    section.parts.emplace_back(base_states(view));
-    for (Chart& chart : base_charts(view)) section.parts.emplace_back(std::move(chart));
+    if (of_pairs) section.parts.emplace_back(base_states(view));
+    if (of_pairs)
+        for (Chart& chart : base_charts(view)) section.parts.emplace_back(std::move(chart));
     if (auto chart = bond_chart(view, in_.scene)) section.parts.emplace_back(std::move(*chart));
     if (auto chart = base_water_chart(view)) section.parts.emplace_back(std::move(*chart));
     sections_.push_back(std::move(section));
-    if (stress_records_ < stress_records) {
+    if (of_pairs && stress_records_ < stress_records) {
         ++stress_records_;
         stresses_.add(run.label(), run.fe);
     }
 }
 
-FePageFrame contact_frame(const FeReport::Input& in)
+FePageFrame contact_frame(const FeReport::Input& in, const std::vector<ContactRun>& runs)
 {
-    return {in.scene,
-            in.plan,
-            in.records,
-            in.model.model(),
-            in.model.water() ? &in.model.water()->water : nullptr,
-            in.uplift,
-            "finite elements with contact",
-            fmt::format("plane-strain finite elements, {} unknowns, {} contact pairs; rigid block for comparison with "
-                        "events located exactly",
-                        in.model.model().dofs.count, in.model.structure().pairs())};
+    const std::string modes =
+        in.reduced ? fmt::format(" on {} elastic modes of the dam", runs.empty() ? 0 : runs.front().fe.modes) : "";
+    return {.scene = in.scene,
+            .plan = in.plan,
+            .records = in.records,
+            .model = in.model.model(),
+            .water = in.model.water() ? &in.model.water()->water : nullptr,
+            .uplift = in.uplift,
+            .kind = "finite elements with contact" + modes,
+            .method = fmt::format("plane-strain finite elements, {} unknowns, {} contact pairs{}; rigid block for "
+                                  "comparison with events located exactly",
+                                  in.model.model().dofs.count, in.model.structure().pairs(),
+                                  in.reduced ? "; earthquake" + modes + ", static stages by the full model" : ""),
+            .reduced = in.reduced};
 }
 
 Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::string>& messages,
                     const std::string& spread) const
 {
-    const FePageFrame frame = contact_frame(in_);
+    const FePageFrame frame = contact_frame(in_, runs);
     Page page = begin_fe_page(frame);
     page.headline = fe_headline(in_.scene, runs, in_.combinations);
     page.key_figures = fe_key_figures(in_.scene, runs);
@@ -291,17 +303,11 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::
     page.warnings.insert(page.warnings.begin(), warnings.begin(), warnings.end());
 
     const std::optional<double>& allowable = in_.scene.criteria.allowable_slip;
-    const Table table = contact_run_table(runs, allowable);
-    Section slip{"Slip",
-                 {rows_part(answer_part(table)), rows_part(contact_slip_table(runs)), rows_part(run_out_table(runs)),
-                  rows_part(crack_table(runs))},
-                 Fold::open};
-    if (Table events = contact_event_table(runs); !events.rows.empty())
-        slip.parts.push_back(rows_part(std::move(events)));
-    if (!in_.scene.lift_joints.empty()) slip.parts.push_back(rows_part(contact_lift_table(runs, allowable)));
-    if (!in_.scene.anchors.empty()) slip.parts.push_back(rows_part(contact_anchor_table(runs)));
-    if (Table water = base_water_table(in_.scene, runs); !water.rows.empty())
-        slip.parts.push_back(rows_part(std::move(water)));
+    Section slip{"Slip", {}, Fold::open};
+    for (Table& table : std::vector{run_answer_table(runs, allowable), contact_slip_table(runs), run_out_table(runs),
+                                    crack_table(runs), contact_event_table(runs), contact_lift_table(runs, allowable),
+                                    contact_anchor_table(runs), base_water_table(in_.scene, runs)})
+        if (!table.rows.empty()) slip.parts.push_back(rows_part(std::move(table)));
     if (!spread.empty()) slip.parts.push_back(Paragraph{spread});
     const bool slides = find(runs, [](const ContactRun& r) { return std::abs(r.fe.max_slip) >= no_slip; });
     if (!slides) page.sections.push_back(statics_section(runs));
@@ -314,11 +320,9 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::
         page.sections.push_back({"Stresses", {std::move(view)}, Fold::open});
     }
     std::vector<Section> appendix = add_worse_polarities(runs, sections_, page);
-    std::vector<Table> how{without_seconds(solution_part(table))};
-    if (with_exact_contact(in_.scene)) how.push_back(contact_law_table(runs));
-    if (Table flow = joint_flow_table(runs); !flow.rows.empty()) how.push_back(std::move(flow));
-    how.push_back(contact_energy_table(runs));
-    how.push_back(contact_count_table(runs));
+    std::vector<Table> how{run_solution_table(runs, false), contact_law_table(runs), joint_flow_table(runs),
+                           contact_energy_table(runs), contact_count_table(runs)};
+    std::erase_if(how, [](const Table& table) { return table.rows.empty(); });
     end_fe_page(frame, motions_, how, page);
     std::move(appendix.begin(), appendix.end(), std::back_inserter(page.sections));
     return page;
@@ -341,6 +345,7 @@ void write_run(const std::filesystem::path& folder, const FeReport::Input& in, c
                       signs = "pressure: effective, compression positive; shear: on the dam, positive where it resists "
                               "downstream slip; slip positive downstream";
     write("history", contact_history_table(r.fe.history));
+    if (r.fe.history.by_pair.pairs == 0) return;
     write("base", base_table(r.fe), signs);
     write("contact", pair_table(r.fe), signs + "; " + letters);
     write("states", state_map(r.fe.history), letters);
@@ -450,10 +455,6 @@ std::vector<std::string> bond_messages(const Scene& scene, const fe2d::Mesh& mes
     return messages;
 }
 
-const InBrief run_columns_in_brief{{"record", "polarity", "slip_mm=slip at end", "total_error_mm=±",
-                                    "max_slip_m=largest slip", "slip_rigid_mm=rigid block", "error_parts", "status", "verdict"},
-                                   "slip_mm"};
-
 void add_points(const Scene& scene, const std::vector<ContactRun>& runs, Answer& answer)
 {
     answer.next(fmt::format("damslip assess {}", scene.file.string()));
@@ -474,59 +475,68 @@ void add_points(const Scene& scene, const std::vector<ContactRun>& runs, Answer&
                                                         : "the ±, most of it the step's: a smaller time.slip_tolerance");
 }
 
-FeAnswer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>& runs,
-                        const std::vector<std::string>& messages, const std::string& spread)
+namespace {
+
+/// The worst run by record and polarity, with its status, slip, error and verdict; null without runs.
+nlohmann::ordered_json worst_json(const std::vector<ContactRun>& runs, const std::optional<double>& allowable)
+{
+    if (runs.empty()) return nullptr;
+    const ContactRun& worst = worst_of(runs);
+    const std::optional<double> walked = walked_at_least(worst.fe.status, worst.fe.slip);
+    const auto number = [&](double metres, double unit) {
+        const std::optional<double> known = reported(worst.fe.status, metres);
+        return known ? nlohmann::ordered_json(*known / unit) : nlohmann::ordered_json();
+    };
+    return {{"record", worst.record},
+            {"polarity", worst.polarity},
+            {"status", word(worst.fe.status)},
+            {"max_slip_m", number(worst.fe.max_slip, 1.0)},
+            {"walked_at_least_m", walked ? nlohmann::ordered_json(*walked) : nlohmann::ordered_json()},
+            {"total_error_mm", number(slip_error(worst).total, units::mm)},
+            {"verdict", word(verdict_of(worst, allowable))}};
+}
+
+} // namespace
+
+Answer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>& runs,
+                      const std::vector<std::string>& messages, const std::string& spread)
 {
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
     const fe2d::RayleighConstants& damping = in.model.damping();
     const Eigen::Index pairs = in.model.structure().pairs();
-    const Table stages = contact_stage_table(runs), table = contact_run_table(runs, allowable),
-                slips = contact_slip_table(runs), run_out = run_out_table(runs),
-                lifts = contact_lift_table(runs, allowable), law = contact_law_table(runs);
-    const bool has_lifts = !in.scene.lift_joints.empty(), gives_way = with_exact_contact(in.scene).has_value();
     const Headline headline = fe_headline(in.scene, runs, in.combinations);
-
-    FeAnswer answer = begin_fe_answer(FeKind::contact, contact_frame(in));
-    auto& j = answer.json;
-    j["contact_pairs"] = pairs;
-    j["damping"] = {{"mass_coefficient_1_s", damping.mass}, {"stiffness_coefficient_s", damping.stiffness}};
-    j["rock"] = rock_json(in.scene, in.model);
-    add_verdict(headline, runs, allowable, answer);
-    j["stages"] = json_of(stages);
-    j["runs"] = json_of(table);
-    j["slip"] = json_of(slips);
-    const Table events = contact_event_table(runs);
-    if (!events.rows.empty()) j["events"] = json_of(events);
-    j["run_out"] = json_of(run_out);
-    if (has_lifts) j["lift_joints"] = json_of(lifts);
-    const Table anchors = contact_anchor_table(runs);
-    if (!in.scene.anchors.empty()) j["anchors"] = json_of(anchors);
-    j["counts"] = json_of(contact_count_table(runs));
-    j["energy"] = json_of(contact_energy_table(runs));
-    const Table water = base_water_table(in.scene, runs), flow = joint_flow_table(runs);
-    if (!water.rows.empty()) j["base_water"] = json_of(water);
-    if (!flow.rows.empty()) j["joint_flow"] = json_of(flow);
-    if (gives_way) j["contact_law"] = json_of(law);
-
-    answer.text += fmt::format("  {} contact pairs; damping a_M = {:.5g} 1/s, b_K = {:.5g} s\n  {}\n\n", pairs,
-                               damping.mass, damping.stiffness, rock_line(in.scene, in.model));
-    answer.text += text(stages) + "\n";
-    answer.text.add(answer_part(table), run_columns_in_brief);
-    answer.text.add(events);
-    for (const Table& shown : {solution_part(table), slips, run_out, crack_table(runs)}) answer.text += text(shown) + "\n";
-    if (has_lifts)
-        answer.text.add(lifts, {{"record", "polarity", "plane", "name", "slip_mm=slip at end", "total_error_mm=±",
-                         "largest_slip_mm=largest slip", "verdict"},
-                        "largest_slip_mm"},
-                        text(lifts) + "\n");
-    if (!in.scene.anchors.empty()) answer.text += text(anchors) + "\n";
-    for (const Table* shown : {&water, &flow}) answer.text.add(*shown);
-    if (gives_way) answer.text += text(law) + "\n";
-    answer.text.headline(headline);
-    answer.text += spread.empty() ? "" : spread + "\n";
-    answer.text.point("", spread);
-    add_points(in.scene, runs, answer.text);
-    j["model_spread"] = spread;
+    Answer answer = begin_fe_answer(contact_frame(in, runs));
+    answer += fmt::format("  {} contact pairs; damping a_M = {:.5g} 1/s, b_K = {:.5g} s\n  {}\n\n", pairs, damping.mass,
+                          damping.stiffness, rock_line(in.scene, in.model));
+    answer.set("contact_pairs", pairs);
+    answer.set("damping", {{"mass_coefficient_1_s", damping.mass}, {"stiffness_coefficient_s", damping.stiffness}});
+    answer.set("rock", rock_json(in.scene, in.model));
+    answer.add("stages", contact_stage_table(runs));
+    answer.add("runs", contact_run_table(runs, allowable), {.text = false});
+    answer.add("answer", run_answer_table(runs, allowable), {.brief = true, .data = false});
+    const auto add_known = [&](const std::string& id, Table table, Places places = {}) {
+        if (!table.rows.empty()) answer.add(id, std::move(table), places);
+    };
+    add_known("events", contact_event_table(runs));
+    answer.add("solution", run_solution_table(runs, true), {.data = false});
+    answer.add("slip", contact_slip_table(runs));
+    answer.add("run_out", run_out_table(runs));
+    answer.add("cracking", crack_table(runs));
+    if (!in.scene.lift_joints.empty()) answer.add("lift_joints", contact_lift_table(runs, allowable), {.brief = true});
+    if (!in.scene.anchors.empty()) answer.add("anchors", contact_anchor_table(runs));
+    answer.add("counts", contact_count_table(runs), {.text = false});
+    answer.add("energy", contact_energy_table(runs), {.text = false});
+    add_known("base_water", base_water_table(in.scene, runs));
+    add_known("joint_flow", joint_flow_table(runs));
+    if (with_exact_contact(in.scene)) answer.add("contact_law", contact_law_table(runs));
+    answer.headline(headline);
+    answer += spread.empty() ? "" : spread + "\n";
+    answer.point("", spread);
+    add_points(in.scene, runs, answer);
+    answer.set("headline", headline.sentence);
+    answer.set("verdict", word(joined_verdict(headline, runs, allowable)));
+    answer.set("worst", worst_json(runs, allowable));
+    answer.set("model_spread", spread);
     end_fe_answer(messages, answer);
     return answer;
 }

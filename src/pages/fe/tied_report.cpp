@@ -12,6 +12,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 namespace damslip::pages {
 
@@ -127,30 +128,31 @@ Cell radiated_share(const fe2d::History& history)
     return radiated / history.energy_scale;
 }
 
-Table run_table(const std::vector<TiedRun>& runs)
+Table run_table(const std::vector<TiedRun>& runs, bool with_seconds)
 {
     using R = TiedRun;
     const auto status = [](const R& r) {
         return r.history.status == fe2d::TiedRunStatus::complete ? std::string("complete") : r.history.status_text;
     };
+    std::vector<ColumnOf<R>> columns{
+        {in_brief({"record", "record"}), &R::record},
+        {in_brief({"polarity", "polarity"}), &R::polarity},
+        {in_brief({"status", "status"}), status},
+        {{"method", "method"}, [](const R& r) { return r.history.method; }},
+        {{"steps", "steps"}, [](const R& r) { return r.history.steps; }},
+        {{"dt_s", "step", "s", 4}, [](const R& r) { return r.history.time_step; }},
+        {ranking({"peak_crest_x_mm", "peak crest x", "mm", 5}), [](const R& r) { return 1e3 * r.history.peak_crest_x; }},
+        {in_brief({"peak_crest_accel_x_m_s2", "peak crest a_x", "m/s²", 5}),
+         [](const R& r) { return r.history.peak_crest_accel_x; }},
+        {in_brief({"peak_base_shear_kN_m", "peak base shear", "kN/m", 5}),
+         [](const R& r) { return r.history.peak_base_shear / 1e3; }},
+        {{"radiated_share", "radiated", "–", 3}, [](const R& r) { return radiated_share(r.history); }},
+        {in_brief({"energy_imbalance", "energy imbalance", "–", 2}),
+         [](const R& r) { return r.history.largest_imbalance; }},
+        {{"factorisations", "factorisations"}, [](const R& r) { return count_cell(r.history.factorisations); }}};
+    if (with_seconds) columns.push_back({{"seconds", "time", "s", 3}, &R::seconds});
     return table_of<R>(
-        "Earthquake runs, tied base",
-        {{{"record", "record"}, &R::record},
-         {{"polarity", "polarity"}, &R::polarity},
-         {{"status", "status"}, status},
-         {{"method", "method"}, [](const R& r) { return r.history.method; }},
-         {{"steps", "steps"}, [](const R& r) { return r.history.steps; }},
-         {{"dt_s", "step", "s", 4}, [](const R& r) { return r.history.time_step; }},
-         {{"peak_crest_x_mm", "peak crest x", "mm", 5}, [](const R& r) { return 1e3 * r.history.peak_crest_x; }},
-         {{"peak_crest_accel_x_m_s2", "peak crest a_x", "m/s²", 5},
-          [](const R& r) { return r.history.peak_crest_accel_x; }},
-         {{"peak_base_shear_kN_m", "peak base shear", "kN/m", 5},
-          [](const R& r) { return r.history.peak_base_shear / 1e3; }},
-         {{"radiated_share", "radiated", "–", 3}, [](const R& r) { return radiated_share(r.history); }},
-         {{"energy_imbalance", "energy imbalance", "–", 2}, [](const R& r) { return r.history.largest_imbalance; }},
-         {{"factorisations", "factorisations"}, [](const R& r) { return count_cell(r.history.factorisations); }},
-         {{"seconds", "time", "s", 3}, &R::seconds}},
-        runs,
+        "Earthquake runs, tied base", columns, runs,
         {"crest x relative to the ground, from the static state; accelerations absolute; energy imbalance over the "
          "largest energy of the run.",
          "one polarity: the model is linear, so the other turns the part of the horizontal motion round; --polarity -1 "
@@ -181,22 +183,18 @@ void write_tied_history(const std::filesystem::path& folder, const Scene& scene,
                                                  "scene " + hash, "record " + run.record}));
 }
 
-FeAnswer tied_answer(const FePageFrame& frame, const fe2d::StaticSolution& statics, const std::vector<TiedRun>& runs)
+Answer tied_answer(const FePageFrame& frame, const fe2d::StaticSolution& statics, const std::vector<TiedRun>& runs)
 {
-    const Table stages = stage_table(frame.model, statics), table = run_table(runs);
-    FeAnswer answer = begin_fe_answer(FeKind::tied, frame);
-    answer.json["stages"] = json_of(stages);
-    answer.json["runs"] = json_of(table);
-    for (const TiedRun& r : runs) answer.json["notes"][r.record] = r.notes;
-    answer.text += "\n" + text(stages) + "\n";
-    answer.text.add(table, {{"record", "polarity", "peak_crest_x_mm", "peak_crest_accel_x_m_s2", "peak_base_shear_kN_m",
-                             "energy_imbalance", "status"},
-                            "peak_crest_x_mm"},
-                    text(table));
-    answer.text.headline_in_brief(headline(runs));
+    Answer answer = begin_fe_answer(frame);
+    answer.add("stages", stage_table(frame.model, statics));
+    answer.add("runs", run_table(runs, true), {.brief = true});
+    nlohmann::ordered_json notes;
+    for (const TiedRun& r : runs) notes[r.record] = r.notes;
+    answer.set("notes", notes);
+    answer.headline_in_brief(headline(runs));
     end_fe_answer(note_texts(frame.scene.notes), answer);
     for (const TiedRun& r : runs)
-        for (const std::string& note : r.notes) answer.text.note(r.record + ": " + note);
+        for (const std::string& note : r.notes) answer.note(r.record + ": " + note);
     return answer;
 }
 
@@ -204,7 +202,7 @@ Page tied_page(const FePageFrame& frame, const fe2d::StaticSolution& statics, co
 {
     Page page = begin_fe_page(frame);
     page.headline = headline(runs);
-    page.sections.push_back({"Runs", {rows_part(without_seconds(run_table(runs)))}, Fold::open});
+    page.sections.push_back({"Runs", {rows_part(run_table(runs, false))}, Fold::open});
     page.sections.push_back({"Static stages", {rows_part(stage_table(frame.model, statics))}, Fold::open});
     std::vector<GroundMotion> motions;
     for (const TiedRun& r : runs) {

@@ -47,7 +47,6 @@ inline FragilityView view_of(const FragilityStudy& study, const FragilityPlan& p
             answer.own_cost};
 }
 
-nlohmann::ordered_json fragility_json(const FragilityView& view);
 Answer fragility_answer(const FragilityView& view);
 /// Curves with stripes and bands, rate by intensity, what P comes from, the tables.
 Page fragility_page(const FragilityView& view);
@@ -68,7 +67,6 @@ struct IntervalCostView {
 
 /// One row an estimator and number of runs.
 Table interval_cost_table(const IntervalCostView& view);
-nlohmann::ordered_json interval_cost_json(const IntervalCostView& view);
 Answer interval_cost_answer(const IntervalCostView& view);
 Page interval_cost_page(const IntervalCostView& view);
 

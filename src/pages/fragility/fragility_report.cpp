@@ -216,45 +216,34 @@ std::string name_of_limit(const std::string& text)
 
 } // namespace
 
-nlohmann::ordered_json fragility_json(const FragilityView& view)
-{
-    nlohmann::ordered_json j = json_header("fragility", view.scene);
-    j["method"] = view.method;
-    j["intensity"] = view.plan.input.intensity.text;
-    j["unit"] = view.unit_text;
-    j["runs"] = view.plan.samples.size();
-    j["draws"] = view.plan.draws.size();
-    j["replicates"] = view.plan.replicates;
-    j["epistemic_draws"] = view.plan.epistemic ? view.plan.replicates * view.plan.outer : 0;
-    j["events"] = view.estimate.clusters;
-    j["p_static"] = view.estimate.p_static;
-    j["statuses"] = view.estimate.statuses;
-    j["probabilities"] = json_of(fragility_table(view));
-    j["curves"] = json_of(curve_table(view));
-    j["rates"] = json_of(rate_table(view));
-    if (view.conditioned) j["conditioned_on_friction"] = json_of(conditioned_table(view));
-    if (view.causes) j["causes"] = json_of(cause_table(view));
-    j["needed_yield"] = json_of(needed_yield_table(view));
-    j["notes"] = view.notes;
-    return j;
-}
-
 Answer fragility_answer(const FragilityView& view)
 {
-    Answer out;
-    const auto add = [&out](const std::vector<Table>& tables, InBrief brief = {}) {
-        for (const Table& table : tables) {
-            InBrief of_table = brief;
-            if (!brief.columns.empty()) of_table.columns.insert(of_table.columns.begin(), table.columns.front().key);
-            out.add(table, std::move(of_table));
-        }
+    Answer out(json_header("fragility", view.scene));
+    const FragilityPlan& plan = view.plan;
+    out.set("method", view.method);
+    out.set("intensity", plan.input.intensity.text);
+    out.set("unit", view.unit_text);
+    out.set("runs", plan.samples.size());
+    out.set("draws", plan.draws.size());
+    out.set("replicates", plan.replicates);
+    out.set("epistemic_draws", plan.epistemic ? plan.replicates * plan.outer : 0);
+    out.set("events", view.estimate.clusters);
+    out.set("p_static", view.estimate.p_static);
+    out.set("statuses", view.estimate.statuses);
+    const auto for_people = [&out](const std::vector<Table>& tables, bool brief) {
+        for (const Table& table : tables) out.add("", table, {.brief = brief, .data = false});
     };
-    add(probability_tables(view), {{"probability", "sampling_lower", "sampling_upper", "runs", "failures",
-                                    "missing", "fitted", "median", "beta", "fit"}});
-    add(rate_tables(view), {{"rate_lower", "rate_upper", "in_50_years", "in_50_years_upper"}});
-    add(by_first_column(rate_part_table(view)));
-    add(cause_tables(view));
-    out += fmt::format("{} runs by {}: {}\n", view.plan.samples.size(), view.method, status_words(view));
+    for_people(probability_tables(view), true);
+    for_people(rate_tables(view), true);
+    for_people(by_first_column(rate_part_table(view)), false);
+    for_people(cause_tables(view), false);
+    out.add("probabilities", fragility_table(view), {.text = false});
+    out.add("curves", curve_table(view), {.text = false});
+    out.add("rates", rate_table(view), {.text = false});
+    if (view.conditioned) out.add("conditioned_on_friction", conditioned_table(view), {.text = false});
+    if (view.causes) out.add("causes", cause_table(view), {.text = false});
+    out.add("needed_yield", needed_yield_table(view), {.text = false});
+    out += fmt::format("{} runs by {}: {}\n", plan.samples.size(), view.method, status_words(view));
     out += fmt::format("share of the draws that do not stand without an earthquake: {:.4g}\n", view.estimate.p_static);
     Headline headline;
     for (const LimitEstimate& limit : view.estimate.limits) {
@@ -266,7 +255,8 @@ Answer fragility_answer(const FragilityView& view)
     headline.sentence += fmt::format("by {}.", method_words(view));
     out.headline_in_brief(headline);
     out.point("runs", fmt::format("{} by {}: {}; {:.3g} of the draws do not stand without an earthquake",
-                                  view.plan.samples.size(), view.method, status_words(view), view.estimate.p_static));
+                                  plan.samples.size(), view.method, status_words(view), view.estimate.p_static));
+    out.set("notes", view.notes);
     for (const std::string& note : view.notes) out.note(note);
     return out;
 }
@@ -403,14 +393,14 @@ Table interval_cost_table(const IntervalCostView& view)
     const auto done = [](auto get) { return [=](const P& p) { return p.done() ? Cell(get(p)) : Cell(); }; };
     return table_of<P>(
         "What the interval costs",
-        {{{"estimator", "estimator"}, &P::estimator},
-         {{"runs", "runs"}, [](const P& p) { return count_cell(p.runs); }},
-         {{"seconds", "processor time", "s", 3}, done([](const P& p) { return p.seconds; })},
-         {{"probability", "P", "–"}, done([](const P& p) { return p.p; })},
-         {{"lower", "2.5 %", "–", 3}, done([](const P& p) { return p.interval.lower; })},
-         {{"upper", "97.5 %", "–", 3}, done([](const P& p) { return p.interval.upper; })},
-         {{"half_width", "half-width", "–", 3}, done([](const P& p) { return p.interval.half_width(); })},
-         {{"gain", "gain", "–", 3}, [](const P& p) { return optional_cell(p.gain); }},
+        {{in_brief({"estimator", "estimator"}), &P::estimator},
+         {in_brief({"runs", "runs"}), [](const P& p) { return count_cell(p.runs); }},
+         {in_brief({"seconds", "processor time", "s", 3}), done([](const P& p) { return p.seconds; })},
+         {in_brief({"probability", "P", "–"}), done([](const P& p) { return p.p; })},
+         {in_brief({"lower", "2.5 %", "–", 3}), done([](const P& p) { return p.interval.lower; })},
+         {in_brief({"upper", "97.5 %", "–", 3}), done([](const P& p) { return p.interval.upper; })},
+         {in_brief({"half_width", "half-width", "–", 3}), done([](const P& p) { return p.interval.half_width(); })},
+         {in_brief({"gain", "gain", "–", 3}), [](const P& p) { return optional_cell(p.gain); }},
          {{"remark", "remark"}, [](const P& p) { return p.done() ? Cell() : Cell(p.remark); }}},
         view.cost.points,
         {"gain: variance of plain Monte Carlo for the same processor time over that of the estimate. An interval from "
@@ -420,23 +410,15 @@ Table interval_cost_table(const IntervalCostView& view)
          "so."});
 }
 
-nlohmann::ordered_json interval_cost_json(const IntervalCostView& view)
-{
-    nlohmann::ordered_json j = json_header("accuracy-probability", view.scene);
-    j["method"] = view.cost.method;
-    j["limit"] = view.cost.limit.text;
-    j["intensity"] = view.measure;
-    j["level"] = view.cost.level / view.unit;
-    j["unit"] = view.unit_text;
-    j["estimates"] = json_of(interval_cost_table(view));
-    return j;
-}
-
 Answer interval_cost_answer(const IntervalCostView& view)
 {
-    Answer answer;
-    const Table table = interval_cost_table(view);
-    answer.add(table, {{"estimator", "runs", "seconds", "probability", "lower", "upper", "half_width", "gain"}}, text(table) + "\n");
+    Answer answer(json_header("accuracy-probability", view.scene));
+    answer.set("method", view.cost.method);
+    answer.set("limit", view.cost.limit.text);
+    answer.set("intensity", view.measure);
+    answer.set("level", view.cost.level / view.unit);
+    answer.set("unit", view.unit_text);
+    answer.add("estimates", interval_cost_table(view), {.brief = true, .file = "accuracy.csv"});
     answer += answer_on_cost(view) + "\n";
     answer.headline_in_brief({answer_on_cost(view)});
     return answer;

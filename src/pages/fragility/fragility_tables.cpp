@@ -137,11 +137,11 @@ Table fragility_table(const FragilityView& view, Readers readers)
     };
     std::vector<ColumnOf<R>> columns = {
         {{"limit", "limit"}, [](const R& r) { return r.limit.limit.text; }},
-        {intensity_column(view), [&](const R& r) { return r.level.x / view.unit; }},
-        {{"probability", "P", "–"},
+        {in_brief(intensity_column(view)), [&](const R& r) { return r.level.x / view.unit; }},
+        {in_brief({"probability", "P", "–"}),
          [counted](const R& r) { return counted || r.level.fitted ? Cell(r.level.p) : Cell(); }},
-        {{"sampling_lower", "draws 2.5 %", "–", 3}, number([](const LevelEstimate& e) { return e.sampling.lower; })},
-        {{"sampling_upper", "97.5 %", "–", 3}, number([](const LevelEstimate& e) { return e.sampling.upper; })},
+        {in_brief({"sampling_lower", "draws 2.5 %", "–", 3}), number([](const LevelEstimate& e) { return e.sampling.lower; })},
+        {in_brief({"sampling_upper", "97.5 %", "–", 3}), number([](const LevelEstimate& e) { return e.sampling.upper; })},
         {{"records_lower", "records 2.5 %", "–", 3},
          [counted](const R& r) {
              return counted && r.level.records.clusters > 1 ? Cell(r.level.records.lower) : Cell();
@@ -150,15 +150,15 @@ Table fragility_table(const FragilityView& view, Readers readers)
          [counted](const R& r) {
              return counted && r.level.records.clusters > 1 ? Cell(r.level.records.upper) : Cell();
          }},
-        {{"runs", "runs"}, number([](const LevelEstimate& e) { return count_of(e.n); })},
-        {{"failures", "failures"}, number([](const LevelEstimate& e) { return count_of(e.z); })}};
+        {in_brief({"runs", "runs"}), number([](const LevelEstimate& e) { return count_of(e.n); })},
+        {in_brief({"failures", "failures"}), number([](const LevelEstimate& e) { return count_of(e.z); })}};
     const bool missing = std::any_of(rows.begin(), rows.end(), [](const R& r) { return r.level.missing > 0.0; });
     const std::vector<ColumnOf<R>> of_missing = {
-        {{"missing", "missing"}, number([](const LevelEstimate& e) { return e.missing; })},
+        {in_brief({"missing", "missing"}), number([](const LevelEstimate& e) { return e.missing; })},
         {{"probability_low", "missing survive", "–", 3}, number([](const LevelEstimate& e) { return e.p_low; })},
         {{"probability_high", "missing fail", "–", 3}, number([](const LevelEstimate& e) { return e.p_high; })}};
     if (missing || readers == Readers::files) columns.insert(columns.end(), of_missing.begin(), of_missing.end());
-    columns.push_back({{"fitted", "curve", "–"}, [](const R& r) { return optional_cell(r.level.fitted); }});
+    columns.push_back({in_brief({"fitted", "curve", "–"}), [](const R& r) { return optional_cell(r.level.fitted); }});
     if (readers == Readers::files)
         for (ColumnOf<R>& column : band_columns(view)) columns.push_back(std::move(column));
     Table t = table_of("Probabilities", columns, rows);
@@ -196,16 +196,16 @@ Table curve_table(const FragilityView& view)
 {
     using L = LimitEstimate;
     std::vector<ColumnOf<L>> columns = {
-        {{"limit", "limit"}, [](const L& l) { return l.limit.text; }},
-        {{"median", "median", view.unit_text},
+        {in_brief({"limit", "limit"}), [](const L& l) { return l.limit.text; }},
+        {in_brief({"median", "median", view.unit_text}),
          [&](const L& l) {
              return l.fit.method != probability::FitMethod::none ? Cell(l.fit.curve.median / view.unit) : Cell();
          }},
-        {{"beta", "β", "–"},
+        {in_brief({"beta", "β", "–"}),
          [](const L& l) { return l.fit.method != probability::FitMethod::none ? Cell(l.fit.curve.beta) : Cell(); }},
         {{"deviance_p", "deviance p", "–", 3},
          [](const L& l) { return l.fit.method != probability::FitMethod::none ? Cell(l.fit.deviance_p) : Cell(); }},
-        {{"fit", "fit"}, [](const L& l) {
+        {in_brief({"fit", "fit"}), [](const L& l) {
              return l.cloud ? Cell(l.cloud->found ? "cloud" : "none: " + l.cloud->why) : Cell(count_words(l.fit));
          }}};
     if (view.plan.input.intensity.design == FragilityDesign::ida) {
@@ -321,9 +321,9 @@ std::vector<Table> rate_tables(const FragilityView& view)
         rows.push_back({"P in 50 years", probability::probability_in(rate.bounds().lower, 50.0),
                         probability::probability_in(rate.bounds().upper, 50.0)});
         tables.push_back(table_of<Row>("Rates: " + limit.limit.text,
-                                       {{{"what", "what"}, &Row::what},
-                                        {{"from", "from", "", 3}, [](const Row& r) { return optional_cell(r.from); }},
-                                        {{"to", "to", "", 3}, [](const Row& r) { return optional_cell(r.to); }}},
+                                       {{in_brief({"what", "what"}), &Row::what},
+                                        {in_brief({"from", "from", "", 3}), [](const Row& r) { return optional_cell(r.from); }},
+                                        {in_brief({"to", "to", "", 3}), [](const Row& r) { return optional_cell(r.to); }}},
                                        rows));
     }
     if (!tables.empty()) tables.back().notes = rate_table(view).notes;

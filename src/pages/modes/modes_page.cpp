@@ -43,14 +43,14 @@ auto in_percent(const std::vector<double>& shares)
 template <class Modes>
 std::vector<ModeColumn> mode_columns(const Modes& m, const std::vector<double>& sum_x)
 {
-    return {{{"mode", "mode"}, [](Mode i) { return static_cast<std::int64_t>(i + 1); }},
-            {{"frequency_Hz", "frequency", "Hz", 5}, [&m](Mode i) { return m.frequency[i]; }},
-            {{"period_s", "period", "s", 5}, [&m](Mode i) { return 1 / m.frequency[i]; }},
+    return {{in_brief({"mode", "mode"}), [](Mode i) { return static_cast<std::int64_t>(i + 1); }},
+            {in_brief({"frequency_Hz", "frequency", "Hz", 5}), [&m](Mode i) { return m.frequency[i]; }},
+            {in_brief({"period_s", "period", "s", 5}), [&m](Mode i) { return 1 / m.frequency[i]; }},
             {{"effective_mass_x_kg_m", "mass x", "kg/m", 5}, [&m](Mode i) { return m.effective_mass(0, i); }},
-            {{"share_x_percent", "share x", "%", 4}, [&m](Mode i) { return 100 * m.effective_share(0, i); }},
-            {{"cumulative_x_percent", "sum x", "%", 4}, in_percent(sum_x)},
+            {in_brief({"share_x_percent", "share x", "%", 4}), [&m](Mode i) { return 100 * m.effective_share(0, i); }},
+            {in_brief({"cumulative_x_percent", "sum x", "%", 4}), in_percent(sum_x)},
             {{"effective_mass_y_kg_m", "mass y", "kg/m", 5}, [&m](Mode i) { return m.effective_mass(1, i); }},
-            {{"share_y_percent", "share y", "%", 4}, [&m](Mode i) { return 100 * m.effective_share(1, i); }}};
+            {in_brief({"share_y_percent", "share y", "%", 4}), [&m](Mode i) { return 100 * m.effective_share(1, i); }}};
 }
 
 Table natural_mode_table(const fe2d::NaturalModes& m)
@@ -71,10 +71,10 @@ Table coupled_mode_table(const fe2d::CoupledModes& m, const std::vector<Mode>& l
         return std::find(leading.begin(), leading.end(), i) != leading.end() ? Cell("yes") : Cell();
     };
     std::vector<ModeColumn> columns = mode_columns(m, sum_x);
-    const ModeColumn of{{"of", "of"}, [&](Mode i) { return m.of_water(i) ? "reservoir" : "dam"; }},
+    const ModeColumn of{in_brief({"of", "of"}), [&](Mode i) { return m.of_water(i) ? "reservoir" : "dam"; }},
         energy{{"water_energy_percent", "energy in water", "%", 3}, [&](Mode i) { return 100 * m.water_share[i]; }};
     columns.insert(columns.begin() + 3, {of, energy}); // before the masses
-    columns.push_back({{"dam_share_x_percent", "of it the dam", "%", 4}, [&](Mode i) { return 100 * m.dam_share[i]; }});
+    columns.push_back({in_brief({"dam_share_x_percent", "of it the dam", "%", 4}), [&](Mode i) { return 100 * m.dam_share[i]; }});
     columns.push_back({{"leading", "leading"}, chosen});
     return table_of(
         "Coupled modes of dam and water (tied base)", columns,
@@ -185,13 +185,13 @@ Table damping_table(const ModesResult& m)
     }
     return table_of<Row>(
         fmt::format("Damping, {:.3g} %", 100 * m.scene.damping.ratio),
-        {{{"method", "method"}, &Row::method},
-         {{"mass_coefficient_1_s", "a_M", "1/s", 5}, [](const Row& r) { return r.constants.mass; }},
-         {{"stiffness_coefficient_s", "b_K", "s", 5}, [](const Row& r) { return r.constants.stiffness; }},
+        {{in_brief({"method", "method"}), &Row::method},
+         {in_brief({"mass_coefficient_1_s", "a_M", "1/s", 5}), [](const Row& r) { return r.constants.mass; }},
+         {in_brief({"stiffness_coefficient_s", "b_K", "s", 5}), [](const Row& r) { return r.constants.stiffness; }},
          {{"first_frequency_Hz", "f_i", "Hz", 5}, [](const Row& r) { return r.first_frequency / two_pi; }},
          {{"second_frequency_Hz", "f_j", "Hz", 5},
           [](const Row& r) { return optional_cell(r.second_frequency, two_pi); }},
-         {{"remark", "remark"}, &Row::remark}},
+         {in_brief({"remark", "remark"}), &Row::remark}},
         rows);
 }
 
@@ -214,32 +214,19 @@ Table transfer_table(const ModesResult& m)
                     {"crest: absolute acceleration of its upstream end in x; both positive downstream."});
 }
 
-nlohmann::ordered_json modes_json(const Scene& given, const ModesResult& m)
-{
-    auto j = json_header("modes", given);
-    j["modes"] = json_of(frequency_table(m));
-    j["damping"] = json_of(damping_table(m));
-    if (!m.transfer.empty()) j["transfer_functions"] = json_of(transfer_table(m));
-    j["model"] = json_of(count_table(m.model.counts, m.water ? &*m.water : nullptr));
-    j["notes"] = modes_notes(given, m);
-    return j;
-}
-
 Answer modes_answer(const Scene& given, const ModesResult& m)
 {
-    const Table modes = frequency_table(m), damping = damping_table(m);
-    Answer all;
+    Answer all(json_header("modes", given));
     all += given.title + "\n\n";
-    all.add(modes, {{"mode", "frequency_Hz", "period_s", "of", "share_x_percent", "cumulative_x_percent",
-                     "share_y_percent", "dam_share_x_percent"}},
-            text(modes) + "\n");
-    all.add(damping, {{"method", "mass_coefficient_1_s", "stiffness_coefficient_s", "remark"}}, text(damping) + "\n");
-    all += text(count_table(m.model.counts, m.water ? &*m.water : nullptr));
-    if (!m.transfer.empty()) all += "\n" + text(transfer_table(m));
+    all.add("modes", frequency_table(m), {.brief = true});
+    all.add("damping", damping_table(m), {.brief = true});
+    all.add("model", count_table(m.model.counts, m.water ? &*m.water : nullptr));
+    if (!m.transfer.empty()) all.add("transfer_functions", transfer_table(m));
     const Eigen::VectorXd& frequency = m.coupled ? m.coupled->frequency : m.modes.frequency;
     all.headline_in_brief({frequency.size() > 0 ? fmt::format("The first mode has {:.4g} Hz, a period of {:.4g} s (tied base).",
                                                               frequency[0], 1.0 / frequency[0])
                                                 : "No mode was found."});
+    all.set("notes", modes_notes(given, m));
     for (const std::string& note : modes_notes(given, m)) all.note(note);
     return all;
 }

@@ -16,7 +16,6 @@ Table damping_table(const ModesResult& result);
 Table transfer_table(const ModesResult& result);
 
 /// @param given  the scene as read
-nlohmann::ordered_json modes_json(const Scene& given, const ModesResult& result);
 Answer modes_answer(const Scene& given, const ModesResult& result);
 
 /// Shapes for ParaView, and the transfer functions as a CSV file.

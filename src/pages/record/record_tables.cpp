@@ -10,7 +10,7 @@
 
 namespace damslip::pages {
 
-Table record_info_table(const std::vector<Record>& records)
+Table record_info_table(const std::vector<Record>& records, Checksums checksums)
 {
     struct Row {
         const Record& record;
@@ -18,26 +18,26 @@ Table record_info_table(const std::vector<Record>& records)
     };
     std::vector<Row> rows;
     for (const Record& r : records) rows.push_back({r, records::measure(r)});
-    Table table = table_of<Row>(
-        "Accelerograms",
-        {{{"name", "name"}, [](const Row& r) { return r.record.name; }},
+    std::vector<ColumnOf<Row>> columns{
+        {in_brief({"name", "name"}), [](const Row& r) { return r.record.name; }},
          {{"format", "format"}, [](const Row& r) { return r.record.source.format; }},
          {{"unit", "unit"}, [](const Row& r) { return r.record.source.unit; }},
-         {{"component", "component"}, [](const Row& r) { return r.record.source.component; }},
-         {{"samples", "samples", "–", 4}, [](const Row& r) { return count_cell(r.record.acceleration.size()); }},
-         {{"dt_s", "dt", "s", 4}, [](const Row& r) { return r.record.dt; }},
-         {{"duration_s", "duration", "s", 4}, [](const Row& r) { return r.m.duration; }},
-         {{"pga_m_s2", "PGA", "m/s²", 4}, [](const Row& r) { return r.m.pga; }},
+         {in_brief({"component", "component"}), [](const Row& r) { return r.record.source.component; }},
+         {in_brief({"samples", "samples", "–", 4}), [](const Row& r) { return count_cell(r.record.acceleration.size()); }},
+         {in_brief({"dt_s", "dt", "s", 4}), [](const Row& r) { return r.record.dt; }},
+         {in_brief({"duration_s", "duration", "s", 4}), [](const Row& r) { return r.m.duration; }},
+         {ranking({"pga_m_s2", "PGA", "m/s²", 4}), [](const Row& r) { return r.m.pga; }},
          {{"pga_g", "PGA", "g", 3}, [](const Row& r) { return r.m.pga / units::standard_gravity; }},
-         {{"pgv_m_s", "PGV", "m/s", 3}, [](const Row& r) { return r.m.pgv; }},
+         {in_brief({"pgv_m_s", "PGV", "m/s", 3}), [](const Row& r) { return r.m.pgv; }},
          {{"pgd_m", "PGD", "m", 3}, [](const Row& r) { return r.m.pgd; }},
-         {{"arias_intensity_m_s", "Arias", "m/s", 3}, [](const Row& r) { return r.m.arias_intensity; }},
+         {in_brief({"arias_intensity_m_s", "Arias", "m/s", 3}), [](const Row& r) { return r.m.arias_intensity; }},
          {{"cav_m_s", "CAV", "m/s", 3}, [](const Row& r) { return r.m.cumulative_velocity; }},
          {{"duration_5_75_s", "D5-75", "s", 3}, [](const Row& r) { return r.m.duration_5_75; }},
-         {{"duration_5_95_s", "D5-95", "s", 3}, [](const Row& r) { return r.m.duration_5_95; }},
-         {{"mean_period_s", "Tm", "s", 3}, [](const Row& r) { return optional_cell(r.m.mean_period); }},
-         {{"sha256", "sha256"}, [](const Row& r) { return r.record.source.sha256; }}},
-        rows);
+         {in_brief({"duration_5_95_s", "D5-95", "s", 3}), [](const Row& r) { return r.m.duration_5_95; }},
+         {in_brief({"mean_period_s", "Tm", "s", 3}), [](const Row& r) { return optional_cell(r.m.mean_period); }}};
+    if (checksums == Checksums::shown)
+        columns.push_back({{"sha256", "sha256"}, [](const Row& r) { return r.record.source.sha256; }});
+    Table table = table_of("Accelerograms", columns, rows);
     for (const Record& r : records)
         for (const std::string& warning : r.warnings) table.notes.push_back(r.name + ": " + warning);
     table.notes.push_back("PGV and PGD start from rest and are not baseline-corrected; all but Tm are exact for the "
@@ -45,21 +45,14 @@ Table record_info_table(const std::vector<Record>& records)
     return table;
 }
 
-Table without_checksums(Table table)
-{
-    table.columns.pop_back();
-    for (auto& row : table.rows) row.pop_back();
-    return table;
-}
-
 Table spectrum_table(const Record& record, const records::ResponseSpectrum& spectrum, double ratio)
 {
     using P = records::SpectrumPoint;
     return table_of<P>(fmt::format("Response spectrum of {}, {} % damping", record.name, 100.0 * ratio),
-                       {{{"period_s", "T", "s", 4}, &P::period},
-                        {{"pseudo_acceleration_m_s2", "PSA", "m/s²", 4}, &P::pseudo_acceleration},
-                        {{"absolute_acceleration_m_s2", "Sa", "m/s²", 4}, &P::absolute_acceleration},
-                        {{"velocity_m_s", "Sv", "m/s", 4}, &P::velocity},
+                       {{in_brief({"period_s", "T", "s", 4}), &P::period},
+                        {ranking({"pseudo_acceleration_m_s2", "PSA", "m/s²", 4}), &P::pseudo_acceleration},
+                        {in_brief({"absolute_acceleration_m_s2", "Sa", "m/s²", 4}), &P::absolute_acceleration},
+                        {in_brief({"velocity_m_s", "Sv", "m/s", 4}), &P::velocity},
                         {{"displacement_m", "Sd", "m", 4}, &P::displacement}},
                        spectrum.points,
                        {"exact for the piecewise-linear record (Nigam & Jennings 1969), free vibration of one period "
@@ -77,13 +70,13 @@ struct SuiteMeasured {
 std::vector<ColumnOf<SuiteMeasured>> suite_measure_columns()
 {
     using M = SuiteMeasured;
-    return {{{"pga_m_s2", "PGA", "m/s²", 4}, [](const M& m) { return m.factor * m.row.measures.pga; }},
-            {{"pgv_m_s", "PGV", "m/s", 3}, [](const M& m) { return m.factor * m.row.measures.pgv; }},
-            {{"arias_intensity_m_s", "Arias", "m/s", 3},
+    return {{ranking({"pga_m_s2", "PGA", "m/s²", 4}), [](const M& m) { return m.factor * m.row.measures.pga; }},
+            {in_brief({"pgv_m_s", "PGV", "m/s", 3}), [](const M& m) { return m.factor * m.row.measures.pgv; }},
+            {in_brief({"arias_intensity_m_s", "Arias", "m/s", 3}),
              [](const M& m) { return m.factor * m.factor * m.row.measures.arias_intensity; }},
             {{"cav_m_s", "CAV", "m/s", 3}, [](const M& m) { return m.factor * m.row.measures.cumulative_velocity; }},
-            {{"duration_5_95_s", "D5-95", "s", 3}, [](const M& m) { return m.row.measures.duration_5_95; }},
-            {{"mean_period_s", "Tm", "s", 3}, [](const M& m) { return optional_cell(m.row.measures.mean_period); }}};
+            {in_brief({"duration_5_95_s", "D5-95", "s", 3}), [](const M& m) { return m.row.measures.duration_5_95; }},
+            {in_brief({"mean_period_s", "Tm", "s", 3}), [](const M& m) { return optional_cell(m.row.measures.mean_period); }}};
 }
 
 } // namespace
@@ -93,8 +86,8 @@ Table suite_index_table(const std::vector<SuiteRow>& rows)
     using M = SuiteMeasured;
     std::vector<M> items;
     for (const SuiteRow& row : rows) items.push_back({row});
-    std::vector<ColumnOf<M>> columns = {{{"name", "record"}, [](const M& m) { return m.row.name; }},
-                                        {{"event", "event"}, [](const M& m) { return m.row.event; }}};
+    std::vector<ColumnOf<M>> columns = {{in_brief({"name", "record"}), [](const M& m) { return m.row.name; }},
+                                        {in_brief({"event", "event"}), [](const M& m) { return m.row.event; }}};
     for (ColumnOf<M>& column : suite_measure_columns()) columns.push_back(std::move(column));
     return table_of("Records", columns, items, {"Horizontal components as they are in their files."});
 }
@@ -104,10 +97,10 @@ Table suite_selection_table(const std::vector<SuiteRow>& rows, const records::Su
     using M = SuiteMeasured;
     std::vector<M> items;
     for (const records::ChosenRecord& c : selection.chosen) items.push_back({rows[c.record], c.factor, c.misfit});
-    std::vector<ColumnOf<M>> columns = {{{"name", "record"}, [](const M& m) { return m.row.name; }},
-                                        {{"event", "event"}, [](const M& m) { return m.row.event; }},
-                                        {{"factor", "factor", "–", 4}, [](const M& m) { return m.factor; }},
-                                        {{"misfit", "misfit", "–", 3}, [](const M& m) { return m.misfit; }}};
+    std::vector<ColumnOf<M>> columns = {{in_brief({"name", "record"}), [](const M& m) { return m.row.name; }},
+                                        {in_brief({"event", "event"}), [](const M& m) { return m.row.event; }},
+                                        {in_brief({"factor", "factor", "–", 4}), [](const M& m) { return m.factor; }},
+                                        {in_brief({"misfit", "misfit", "–", 3}), [](const M& m) { return m.misfit; }}};
     for (ColumnOf<M>& column : suite_measure_columns()) columns.push_back(std::move(column));
     Table table = table_of(
         "Selected", columns, items,
@@ -145,10 +138,10 @@ Table suite_spectrum_table(std::span<const double> periods, std::span<const doub
             {periods[k], target[k], std::exp(sum / static_cast<double>(selection.chosen.size())), low, high});
     }
     return table_of<Row>("Spectra, 5 %",
-                         {{{"period_s", "T", "s", 3}, [](const Row& r) { return r.period; }},
-                          {{"target_m_s2", "target", "m/s²", 4}, [](const Row& r) { return r.target; }},
-                          {{"mean_m_s2", "geometric mean", "m/s²", 4}, [](const Row& r) { return r.mean; }},
-                          {{"mean_over_target", "mean/target", "–", 3}, [](const Row& r) { return r.mean / r.target; }},
+                         {{in_brief({"period_s", "T", "s", 3}), [](const Row& r) { return r.period; }},
+                          {in_brief({"target_m_s2", "target", "m/s²", 4}), [](const Row& r) { return r.target; }},
+                          {in_brief({"mean_m_s2", "geometric mean", "m/s²", 4}), [](const Row& r) { return r.mean; }},
+                          {in_brief({"mean_over_target", "mean/target", "–", 3}), [](const Row& r) { return r.mean / r.target; }},
                           {{"smallest_m_s2", "smallest", "m/s²", 4}, [](const Row& r) { return r.low; }},
                           {{"largest_m_s2", "largest", "m/s²", 4}, [](const Row& r) { return r.high; }}},
                          rows);

@@ -11,10 +11,9 @@
 namespace damslip::pages {
 
 /// Format, samples and measures of records, one each row.
-Table record_info_table(const std::vector<Record>& records);
+enum class Checksums { shown, left_out };
+Table record_info_table(const std::vector<Record>& records, Checksums checksums);
 
-/// The same for people, whom 64 digits do not help.
-Table without_checksums(Table info_table);
 
 /// @param ratio  damping [-]
 Table spectrum_table(const Record& record, const records::ResponseSpectrum& spectrum, double ratio);

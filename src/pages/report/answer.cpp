@@ -1,11 +1,14 @@
 #include "pages/report/answer.hpp"
 
+#include "core/file.hpp"
 #include "core/text.hpp"
+#include "pages/report/json.hpp"
 #include "pages/report/table_text.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 namespace damslip::pages {
@@ -14,25 +17,19 @@ namespace {
 
 constexpr int most_digits = 4;
 
-std::size_t place_of(const Table& table, const std::string& key)
-{
-    const auto at = std::find_if(table.columns.begin(), table.columns.end(), [&](const Column& c) { return c.key == key; });
-    return static_cast<std::size_t>(at - table.columns.begin());
-}
-
-/// The columns in their order, without those that have nothing to show.
-Table part_of(const Table& table, const std::vector<std::string>& keys)
+/// The columns of the answer in brief, without those that have nothing to show.
+Table part_of(const Table& table)
 {
     Table part{table.title, {}, std::vector<std::vector<Cell>>(table.rows.size()), {}};
-    for (const std::string& word : keys) {
-        const std::size_t sign = word.find('='), at = place_of(table, word.substr(0, sign));
-        if (at == table.columns.size() || std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
-                return std::holds_alternative<std::monostate>(row[at]);
+    for (std::size_t j = 0; j < table.columns.size(); ++j) {
+        const Column& column = table.columns[j];
+        if (column.brief == Brief::no || std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+                return std::holds_alternative<std::monostate>(row[j]);
             }))
             continue;
-        part.columns.push_back(table.columns[at]);
-        if (sign != std::string::npos) part.columns.back().heading = word.substr(sign + 1);
-        for (std::size_t i = 0; i < table.rows.size(); ++i) part.rows[i].push_back(table.rows[i][at]);
+        part.columns.push_back(column);
+        if (!column.brief_heading.empty()) part.columns.back().heading = column.brief_heading;
+        for (std::size_t i = 0; i < table.rows.size(); ++i) part.rows[i].push_back(table.rows[i][j]);
     }
     return part;
 }
@@ -105,13 +102,16 @@ void fit(Table& table)
     }
 }
 
-/// So many rows, in their order: the first, or those with the largest numbers in a column.
-Table with_rows(const Table& table, std::size_t count, const std::string& largest)
+/// So many rows, in their order: the first, or those with the largest numbers in the column that ranks.
+Table with_rows(const Table& table, std::size_t count)
 {
     if (table.rows.size() <= count) return table;
     std::vector<std::size_t> order(table.rows.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    if (const std::size_t at = place_of(table, largest); at < table.columns.size()) {
+    const auto ranks = std::find_if(table.columns.begin(), table.columns.end(),
+                                    [](const Column& column) { return column.brief == Brief::ranks; });
+    if (ranks != table.columns.end()) {
+        const auto at = static_cast<std::size_t>(ranks - table.columns.begin());
         const auto size = [&](std::size_t i) { // a word in place of a number, "at least 310", is looked at first
             if (const double* value = std::get_if<double>(&table.rows[i][at])) return std::abs(*value);
             return std::holds_alternative<std::string>(table.rows[i][at]) ? HUGE_VAL : -1.0;
@@ -187,29 +187,55 @@ std::string without_stop(std::string text)
 
 } // namespace
 
+Answer::Answer(nlohmann::ordered_json header)
+    : header_(std::make_shared<const nlohmann::ordered_json>(std::move(header)))
+{
+}
+
 Answer& Answer::operator+=(const std::string& text)
 {
     full_ += text;
     return *this;
 }
 
-void Answer::add(const Table& table)
+void Answer::add(const std::string& id, Table table, Places places)
 {
-    if (!table.rows.empty()) full_ += text(table) + "\n";
+    if (places.text && !table.rows.empty())
+        full_ += (places.turned ? text_by_columns(table, places.turned) : text(table)) + "\n";
+    if (Table part = places.brief ? part_of(table) : Table(); !part.rows.empty() && !part.columns.empty())
+        tables_.push_back(std::move(part));
+    if (!places.file.empty()) files_.emplace_back(places.file, table);
+    if (places.data) data_.emplace_back(id, std::move(table));
 }
 
-void Answer::add(const Table& table, InBrief brief, std::string text)
+void Answer::set(const std::string& id, nlohmann::ordered_json value)
 {
-    full_ += text;
-    Table part = part_of(table, brief.columns);
-    if (part.rows.empty() || part.columns.empty()) return;
-    const std::size_t rows = part.rows.size();
-    tables_.push_back({std::move(part), rows, std::move(brief.largest)});
+    data_.emplace_back(id, std::make_shared<const nlohmann::ordered_json>(std::move(value)));
 }
 
-void Answer::add(const Table& table, InBrief brief)
+nlohmann::ordered_json Answer::json() const
 {
-    add(table, std::move(brief), table.rows.empty() ? "" : text(table) + "\n");
+    nlohmann::ordered_json j = *header_;
+    for (const auto& [id, item] : data_)
+        if (const Table* table = std::get_if<Table>(&item))
+            j[id] = json_of(*table);
+        else
+            j[id] = *std::get<Value>(item);
+    return j;
+}
+
+std::vector<std::pair<std::string, Table>> Answer::tables() const
+{
+    std::vector<std::pair<std::string, Table>> list;
+    for (const auto& [id, item] : data_)
+        if (const Table* table = std::get_if<Table>(&item)) list.emplace_back(id, *table);
+    return list;
+}
+
+void Answer::write(const std::filesystem::path& folder, const std::vector<std::string>& comments) const
+{
+    write_file(folder / "summary.json", json().dump(2) + "\n");
+    for (const auto& [name, table] : files_) write_file(folder / name, csv(table, comments));
 }
 
 void Answer::headline(const Headline& headline)
@@ -255,12 +281,12 @@ std::string Answer::in_room(const Room& room, const std::string& files) const
     if (!headline_.verdict.empty()) out += lines_of(headline_.verdict, verdict_lines);
     if (!headline_.sentence.empty()) out += lines_of(visible(headline_.sentence, LineEnds::replaced), sentence_lines);
     for (std::size_t k = 0; k < std::min(room.tables, tables_.size()); ++k) {
-        Table shown = with_rows(tables_[k].table, room.rows, tables_[k].largest);
+        Table shown = with_rows(tables_[k], room.rows);
         for_a_glance(shown);
         fit(shown);
         shown.title = cut(shown.title, brief_columns);
-        if (shown.rows.size() < tables_[k].rows)
-            shown.notes.push_back(fmt::format("{} more rows", tables_[k].rows - shown.rows.size()));
+        if (const std::size_t left_out = tables_[k].rows.size() - shown.rows.size())
+            shown.notes.push_back(fmt::format("{} more rows", left_out));
         out += (out.empty() ? "" : "\n") + text(shown);
     }
     if (!out.empty()) out += "\n";

@@ -3,33 +3,44 @@
 #include "core/csv.hpp"
 #include "pages/report/page.hpp"
 
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
-/// What a command prints: an ordered list of items, of which some are the answer and the others are there to check it.
 namespace damslip::pages {
 
 inline constexpr std::size_t brief_lines = 25, brief_columns = 110; ///< of an answer in brief [lines, characters]
 
-/// Which part of a table is the answer.
-struct InBrief {
-    /// Keys, in this order, those that the table does not have left out; "key=heading" where the table's own heading is long.
-    std::vector<std::string> columns;
-    std::string largest = {};         ///< key: where not all rows fit, those with the largest numbers stay; empty: the first
+/// Where a table of an answer stands.
+struct Places {
+    bool text = true;    ///< in the full output
+    bool brief = false;  ///< in the answer in brief, with the columns that are marked for it
+    bool data = true;    ///< in the JSON object and in Python
+    std::string file = {};  ///< CSV among the files of --out: "displacements.csv"; empty: none
+    std::size_t turned = 0; ///< in the full output by columns, so many lines of headings; 0: by rows
 };
 
-/// The output of one command, in full (--full) and in brief. Each item is added once; the answer in brief is made of the items marked for
-/// it: headline, tables, sentences, then notes. It has at most brief_lines lines of brief_columns characters, numbers of at most four
-/// digits, and lengths of one table in one unit. What has no room is counted in the last lines, which say where the rest is.
+/// The output of one command: an ordered list of items, each added once, for terminal, JSON object, CSV files and Python.
+///
+/// The full output (--full) has all tables and sentences in their order, an empty line between tables. The answer in brief is made of
+/// headline, columns marked for it (Column::brief), points and notes. It has at most brief_lines lines of brief_columns characters,
+/// numbers of at most four digits, and lengths of one table in one unit. What has no room is counted in the last lines, which say
+/// where the rest is.
 class Answer {
 public:
+    /// @param header  begins the JSON object
+    explicit Answer(nlohmann::ordered_json header);
+
     /// Text of the full output alone.
     Answer& operator+=(const std::string& text);
-    /// The table with an empty line below it in full, nothing in brief.
-    void add(const Table& table);
-    /// A table that is part of the answer, if it has rows. @param text  in the full output; the other form: as add(table)
-    void add(const Table& table, InBrief brief, std::string text);
-    void add(const Table& table, InBrief brief);
+    /// A table; where it has no rows it is in the data alone. @param id  its key in JSON and Python
+    void add(const std::string& id, Table table, Places places = {});
+    /// A value of the JSON object alone.
+    void set(const std::string& id, nlohmann::ordered_json value);
     /// Sentence and verdict; first in brief.
     void headline(const Headline& headline);
     /// The same of an output that has none in full.
@@ -44,17 +55,16 @@ public:
     void next(const std::string& command);
 
     const std::string& full() const { return full_; }
+    nlohmann::ordered_json json() const;
+    std::vector<std::pair<std::string, Table>> tables() const; ///< of the data, by id
+    /// summary.json, and the tables that have a file. @param comments  of each CSV
+    void write(const std::filesystem::path& folder, const std::vector<std::string>& comments) const;
     /// @param files  flags that write the rest: "--out DIR"; empty: none
     std::string brief(const std::string& files) const;
     /// Verdict and slip in one line of at most brief_columns characters.
     std::string line() const;
 
 private:
-    struct BriefTable {
-        Table table; ///< with the columns of the answer
-        std::size_t rows = 0;
-        std::string largest;
-    };
     struct Room {
         std::size_t rows, notes, note_lines, tables, point_lines;
     };
@@ -62,7 +72,11 @@ private:
 
     std::string full_, next_;
     Headline headline_;
-    std::vector<BriefTable> tables_;
+    using Value = std::shared_ptr<const nlohmann::ordered_json>;
+    Value header_;                                                        ///< of the JSON object
+    std::vector<std::pair<std::string, std::variant<Table, Value>>> data_; ///< by id
+    std::vector<std::pair<std::string, Table>> files_;                    ///< by name
+    std::vector<Table> tables_; ///< of the answer in brief, with its columns alone
     std::vector<std::string> points_, notes_;
 };
 

@@ -152,10 +152,10 @@ Table effect_table(const EffectPlan& plan)
 {
     using E = PlannedEffect;
     return table_of<E>(plan.method == Method::rigid_block ? "Effect plan, rigid block" : "Effect plan, finite elements",
-                       {{{"effect", "effect"}, &E::name},
+                       {{in_brief({"effect", "effect"}), &E::name},
                         {{"on", "on"}, &E::on},
-                        {{"reason", "because"}, &E::reason},
-                        {{"cost", "cost"}, &E::cost}},
+                        {in_brief({"reason", "because"}), &E::reason},
+                        {in_brief({"cost", "cost"}), &E::cost}},
                        plan.effects);
 }
 

@@ -65,31 +65,31 @@ Table plane_table(const Planes& planes, const Scene& scene, PlaneRows which)
         };
     };
     std::vector<ColumnOf<R>> columns{
-        {{"plane", "plane"}, [row](R i) { return row(i).name; }},
+        {in_brief({"plane", "plane"}), [row](R i) { return row(i).name; }},
         {{"alpha_deg", "α", "°", 4}, [row](R i) { return optional_cell(in_degrees(row(i).angle)); }}};
     const std::size_t last = planes.states.size() - 1;
     if (last > 0)
         columns.push_back({{"factor_" + std::string("static"), "F " + planes.states.front().ground.name, "–", 4},
                            [row](R i) { return factor_cell(row(i), 0); }});
-    columns.push_back({{"factor", "F " + planes.states[last].ground.name, "–", 4},
+    columns.push_back({in_brief({"factor", "F " + planes.states[last].ground.name, "–", 4}),
                        [row, last](R i) { return factor_cell(row(i), last); }});
     if (std::any_of(planes.states.begin(), planes.states.end(), [](const PlaneState& s) { return s.required.has_value(); }))
         columns.push_back({{"factor_over_required", "F/required", "–", 4},
                            [row, &planes](R i) { return finite_cell(margin(row(i), planes.states)); }});
     const std::vector<ColumnOf<R>> rest{
-        {{"a_y_m_s2", "a_y", "m/s²", 4}, [row](R i) { return finite_cell(row(i).yield); }},
+        {in_brief({"a_y_m_s2", "a_y", "m/s²", 4}), [row](R i) { return finite_cell(row(i).yield); }},
         {{"slip_factor", "s″/(a - a_y)", "–", 4}, [row](R i) { return row(i).slip_factor; }},
-        {{"slip_m", "largest slip", "m", 5}, [row](R i) { return optional_cell(slip_of(row(i))); }},
+        {ranking({"slip_m", "largest slip", "m", 5}), [row](R i) { return optional_cell(slip_of(row(i))); }},
         {{"record", "record"}, with_slip([](const PlaneSlip& s) { return Cell(s.record); })},
         {{"polarity", "polarity"}, with_slip([](const PlaneSlip& s) { return Cell(s.polarity); })},
         {{"status", "status"}, with_slip([](const PlaneSlip& s) { return Cell(word(s.slide.status)); })},
-        {{"verdict", "verdict"},
+        {in_brief({"verdict", "verdict"}),
          [row, &planes, &scene](R i) {
              const Verdict verdict = judge(row(i), planes, scene);
              if (verdict == Verdict::pass) return Cell("below"); // rigid blocks
              return verdict == Verdict::none ? Cell() : Cell(word(verdict));
          }},
-        {{"governs", "governs by"}, [&planes](R i) { return governs_words(planes, i); }}};
+        {in_brief({"governs", "governs by"}), [&planes](R i) { return governs_words(planes, i); }}};
     columns.insert(columns.end(), rest.begin(), rest.end());
     Table t = table_of<R>("Planes", columns, shown);
     std::string states;

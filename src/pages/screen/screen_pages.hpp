@@ -80,11 +80,10 @@ Page screen_page(const ScreenReportInput& input);
 /// The page as one HTML file.
 std::string screen_report(const ScreenReportInput& input);
 
-nlohmann::ordered_json screen_json(const ScreenReportInput& input);
 Answer screen_answer(const ScreenReportInput& input);
 
-/// summary.json, displacements.csv, flexible_block.csv of a flexible mass, scene.resolved.toml, report.html.
-void write_screening(const std::filesystem::path& folder, const ScreenReportInput& input);
+/// The files of the answer, scene.resolved.toml, report.html. @param answer  screen_answer() of the input
+void write_screening(const std::filesystem::path& folder, const ScreenReportInput& input, const Answer& answer);
 
 Table yield_table(const Screening& s);
 /// The rigid block above each lift joint: static safety and yield acceleration. Empty without lift joints.

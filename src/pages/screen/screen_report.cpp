@@ -296,7 +296,7 @@ Headline judged_headline(const Scene& scene, const Screening& s)
     Headline block = block_headline(scene, s);
     if (!s.slips.front().of_dam) return block;
     if (s.elastic && !s.elastic->runs.empty()) {
-        Headline elastic = fe_headline(scene, s.elastic->runs, {}, "step and modes");
+        Headline elastic = fe_headline(scene, s.elastic->runs);
         if (!s.elastic->why_not.empty()) elastic.sentence += " " + s.elastic->why_not;
         if (elastic.outcome == Outcome::fail || block.outcome != Outcome::fail) {
             if (elastic.outcome == Outcome::pass && !s.elastic->why_not.empty()) return {elastic.sentence, Outcome::unresolved, "Undecided."};
@@ -447,50 +447,6 @@ std::vector<std::string> screen_notes(const Ready& ready)
     return notes;
 }
 
-nlohmann::ordered_json screen_json(const ScreenReportInput& in)
-{
-    const Screening& s = in.screening;
-    const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
-    auto j = json_header("screen", in.scene, s.plan.scene_hash);
-    j["records"] = record_provenance(in.records);
-    j["effects"] = json_of(effect_table(s.plan));
-    if (in.scene.wedge) {
-        const RigidModel& model = s.bases.front().model;
-        j["wedge"] = json_of(wedge_stability_table(in.scene, model));
-        j["planes"] = json_of(wedge_plane_table(in.scene, *model.wedge));
-        j["yield"] = json_of(wedge_yield_table(in.scene, *model.wedge));
-    } else {
-        j["limit_equilibrium"] = json_of(sliding::equilibrium_table(s.combinations));
-        j["verdicts"] = json_of(sliding::verdict_table(s.combinations));
-        j["yield"] = json_of(yield_table(s));
-        if (!in.given.lift_joints.empty()) j["lift_joints"] = json_of(lift_joint_table(in.given));
-        if (!in.given.anchors.empty()) j["anchors"] = json_of(anchor_list_table(in.given));
-        j["uplift_profiles"] = json_of(sliding::uplift_comparison_table(s.uplifts));
-    }
-    if (s.elastic) {
-        j["elastic"] = json_of(elastic_table(s, allowable));
-        if (!s.elastic->why_not.empty()) j["elastic_not_run"] = s.elastic->why_not;
-    }
-    j["displacements"] = json_of(slip_table(s, allowable));
-    if (in.mean_polarity) j["mean_of_polarities"] = json_of(mean_slip_table(s));
-    if (has_rocking(s)) j["rocking_block"] = json_of(rocking_table(s, allowable));
-    if (!s.slips_without_bond.empty()) j["without_bond"] = json_of(bond_table(s, allowable));
-    if (!in.scene.anchors.empty()) j["anchor_forces"] = json_of(screened_anchor_table(s));
-    const Table events = event_table(s);
-    if (!events.rows.empty()) j["events"] = json_of(events);
-    if (s.flexible) j["flexible_block"] = json_of(flexible_table(s, allowable));
-    for (const Table& table : plane_tables(s.planes, in.scene, PlaneRows::all)) j[plane_key(table)] = json_of(table);
-    if (!s.needed.empty()) j["needed"] = json_of(needed_table(s.needed, in.scene));
-    j["statistics"] = json_of(statistics_table(s));
-    j["regressions"] = json_of(regression_table(s.regressions));
-    if (in.spectrum) j["response_spectrum"] = spectrum_json(*in.spectrum);
-    const Headline headline = screen_headline(in.scene, s);
-    j["headline"] = headline.sentence;
-    j["verdict"] = headline.verdict;
-    j["warnings"] = s.warnings;
-    return j;
-}
-
 namespace {
 
 /// What governs, and what is to be looked at.
@@ -519,77 +475,67 @@ Answer screen_answer(const ScreenReportInput& in)
 {
     const Screening& s = in.screening;
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
-    Answer out;
+    Answer out(json_header("screen", in.scene, s.plan.scene_hash));
     out += in.scene.title + "   (" + in.scene.file.string() + ", scene " + s.plan.scene_hash.substr(0, 12) + ")\n" +
            effects_line(s.plan) + "\n";
-    const auto show = [&out](const Table& table) { out.add(table); };
+    out.set("records", record_provenance(in.records));
+    out.add("effects", effect_table(s.plan), {.text = false});
     if (in.scene.wedge) {
         const RigidModel& model = s.bases.front().model;
-        show(wedge_stability_table(in.scene, model));
-        show(wedge_plane_table(in.scene, *model.wedge));
-        show(wedge_yield_table(in.scene, *model.wedge));
+        out.add("wedge", wedge_stability_table(in.scene, model));
+        out.add("planes", wedge_plane_table(in.scene, *model.wedge));
+        out.add("yield", wedge_yield_table(in.scene, *model.wedge));
     } else {
-        out += text_by_columns(sliding::equilibrium_table(s.combinations), 3) + "\n";
+        out.add("limit_equilibrium", sliding::equilibrium_table(s.combinations), {.file = "equilibrium.csv", .turned = 3});
+        out.add("verdicts", sliding::verdict_table(s.combinations), {.text = false, .file = "verdicts.csv"});
         const Table checks = sliding::check_matrix(s.combinations);
         if (checks.rows.empty())
             out += "verdicts: no required values are given; name criteria.document, or required_... in "
                    "[[combination]]\n\n";
-        else
-            out += text_by_columns(checks, 2) + "\n";
-        out += text_by_columns(yield_table(s), 1) + "\n";
-        show(lift_joint_table(in.given));
-        show(anchor_list_table(in.given));
-        show(sliding::uplift_comparison_table(s.uplifts));
+        out.add("checks", checks, {.data = false, .turned = 2});
+        out.add("yield", yield_table(s), {.file = "yield.csv", .turned = 1});
+        if (!in.given.lift_joints.empty()) out.add("lift_joints", lift_joint_table(in.given));
+        if (!in.given.anchors.empty()) out.add("anchors", anchor_list_table(in.given));
+        out.add("uplift_profiles", sliding::uplift_comparison_table(s.uplifts));
     }
-    if (in.spectrum) out += spectrum_text(*in.spectrum) + "\n";
-    show(regression_summary(s.regressions));
-    bool first = true; // the table of planes is part of the answer, those of their parts are not
-    for (const Table& table : plane_tables(s.planes, in.scene, PlaneRows::governing_lifts)) {
-        if (first) out.add(table, {{"plane", "verdict", "factor", "a_y_m_s2", "slip_m", "governs"}, "slip_m"});
-        else show(table);
-        first = false;
+    if (in.spectrum) {
+        out += spectrum_text(*in.spectrum) + "\n";
+        out.set("response_spectrum", spectrum_json(*in.spectrum));
     }
-    if (s.elastic) out.add(elastic_table(s, allowable), run_columns_in_brief);
-    if (s.elastic && !s.elastic->runs.empty()) show(slip_table(s, allowable)); // its slip stands in the elastic dam's
-    else out.add(slip_table(s, allowable),
-            {{"record", "polarity", "slip_h_mm", "slip_hv_mm", "max_slip_m", "status", "verdict"}, "max_slip_m"});
-    if (in.mean_polarity) show(mean_slip_table(s));
-    if (has_rocking(s)) show(rocking_table(s, allowable));
-    if (!s.slips_without_bond.empty()) show(bond_table(s, allowable));
-    show(screened_anchor_table(s));
-    if (const Table events = event_table(s); !events.rows.empty()) show(events);
-    if (s.flexible) show(flexible_table(s, allowable));
-    show(needed_table(s.needed, in.scene));
-    show(statistics_table(s));
+    out.add("regressions", regression_table(s.regressions), {.text = false});
+    out.add("regression_summary", regression_summary(s.regressions), {.data = false});
+    for (const Table& table : plane_tables(s.planes, in.scene, PlaneRows::governing_lifts)) // for people
+        out.add("", table, {.brief = true, .data = false});
+    for (const Table& table : plane_tables(s.planes, in.scene, PlaneRows::all))
+        out.add(plane_key(table), table, {.text = false, .file = plane_key(table) + ".csv"});
+    if (s.elastic) out.add("elastic", elastic_table(s, allowable), {.brief = true, .file = "elastic.csv"});
+    if (s.elastic && !s.elastic->why_not.empty()) out.set("elastic_not_run", s.elastic->why_not);
+    const bool elastic = s.elastic && !s.elastic->runs.empty(); // its table has the block's slip beside its own
+    out.add("displacements", slip_table(s, allowable), {.brief = !elastic, .file = "displacements.csv"});
+    const auto add_known = [&](const std::string& id, const Table& table, Places places = {}) {
+        if (!table.rows.empty()) out.add(id, table, places);
+    };
+    if (in.mean_polarity) out.add("mean_of_polarities", mean_slip_table(s));
+    if (has_rocking(s)) out.add("rocking_block", rocking_table(s, allowable), {.file = "rocking_block.csv"});
+    if (!s.slips_without_bond.empty()) out.add("without_bond", bond_table(s, allowable));
+    if (!in.scene.anchors.empty()) out.add("anchor_forces", screened_anchor_table(s));
+    add_known("events", event_table(s), {.file = "events.csv"});
+    if (s.flexible) out.add("flexible_block", flexible_table(s, allowable), {.file = "flexible_block.csv"});
+    add_known("needed", needed_table(s.needed, in.scene), {.file = "needed.csv"});
+    out.add("statistics", statistics_table(s));
     const Headline headline = screen_headline(in.scene, s);
     out.headline(headline);
+    out.set("headline", headline.sentence);
+    out.set("verdict", headline.verdict);
+    out.set("warnings", s.warnings);
     add_points(in, out);
     for (const std::string& warning : s.warnings) out.note(warning);
     return out;
 }
 
-void write_screening(const std::filesystem::path& folder, const ScreenReportInput& in)
+void write_screening(const std::filesystem::path& folder, const ScreenReportInput& in, const Answer& answer)
 {
-    const std::vector<std::string> comments{"damslip " + program_version(), "scene " + in.screening.plan.scene_hash};
-    const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
-    write_file(folder / "summary.json", screen_json(in).dump(2) + "\n");
-    write_file(folder / "displacements.csv", csv(slip_table(in.screening, allowable), comments));
-    if (in.screening.elastic) write_file(folder / "elastic.csv", csv(elastic_table(in.screening, allowable), comments));
-    if (!in.scene.wedge) {
-        write_file(folder / "equilibrium.csv", csv(sliding::equilibrium_table(in.screening.combinations), comments));
-        write_file(folder / "verdicts.csv", csv(sliding::verdict_table(in.screening.combinations), comments));
-        write_file(folder / "yield.csv", csv(yield_table(in.screening), comments));
-    }
-    if (has_rocking(in.screening))
-        write_file(folder / "rocking_block.csv", csv(rocking_table(in.screening, allowable), comments));
-    if (const Table events = event_table(in.screening); !events.rows.empty())
-        write_file(folder / "events.csv", csv(events, comments));
-    if (in.screening.flexible)
-        write_file(folder / "flexible_block.csv", csv(flexible_table(in.screening, allowable), comments));
-    for (const Table& table : plane_tables(in.screening.planes, in.scene, PlaneRows::all))
-        write_file(folder / (plane_key(table) + ".csv"), csv(table, comments));
-    if (!in.screening.needed.empty())
-        write_file(folder / "needed.csv", csv(needed_table(in.screening.needed, in.scene), comments));
+    answer.write(folder, {"damslip " + program_version(), "scene " + in.screening.plan.scene_hash});
     write_file(folder / "scene.resolved.toml", resolved_toml(in.given));
     write_file(folder / "report.html", screen_report(in));
 }

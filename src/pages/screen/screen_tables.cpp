@@ -219,10 +219,12 @@ Table mean_slip_table(const Screening& s)
 
 Table elastic_table(const Screening& s, const std::optional<double>& allowable)
 {
-    Table t = with_columns(contact_run_table(s.elastic->runs, allowable),
-                           {"record", "polarity", "status", "slip_mm", "total_error_mm", "error_parts", "max_slip_m",
-                            "slip_rigid_mm", "dt_s", "verdict"});
-    t.title = "Elastic dam, reduced finite elements";
+    const RunColumns c(allowable);
+    Table t = table_of<ContactRun>(
+        "Elastic dam, reduced finite elements",
+        {c.record, c.polarity, c.status, {c.slip_in_words.column, c.slip.value}, c.total_error, c.error_parts, c.max_slip,
+         c.rigid_slip, c.dt, c.verdict},
+        s.elastic->runs);
     t.notes = {"slip: area mean over the base since the static state, positive downstream; ± total: what steps and modes "
                "left out leave open (estimate), nothing of the mesh, which  damslip fe  adds."};
     if (!s.elastic->why_not.empty()) t.notes.push_back(s.elastic->why_not);
@@ -238,19 +240,19 @@ Table slip_table(const Screening& s, const std::optional<double>& allowable)
         return r.with_vertical ? slip_cell(*r.with_vertical, r.with_vertical->slip / mm) : Cell();
     };
     std::vector<ColumnOf<R>> columns{
-        {{"record", "record"}, &R::record},
-        {{"polarity", "polarity"}, &R::polarity},
+        {in_brief({"record", "record"}), &R::record},
+        {in_brief({"polarity", "polarity"}), &R::polarity},
         {{"pga_m_s2", "PGA", "m/s²", 4}, &R::pga},
         {{"yield_over_pga", "a_y/PGA", "–", 4},
          [=](const R& r) { return r.pga > 0 ? finite_cell(a_y / r.pga) : Cell(); }},
-        {{"slip_h_mm", "slip h", "mm", 5}, [](const R& r) { return slip_cell(r.horizontal, r.horizontal.slip / mm); }},
-        {{"slip_hv_mm", "slip h+v", "mm", 5}, with_vertical},
-        {{"max_slip_m", "largest slip", "m", 5}, [](const R& r) { return slip_cell(r.rigid(), r.rigid().max_slip); }},
+        {in_brief({"slip_h_mm", "slip h", "mm", 5}), [](const R& r) { return slip_cell(r.horizontal, r.horizontal.slip / mm); }},
+        {in_brief({"slip_hv_mm", "slip h+v", "mm", 5}), with_vertical},
+        {ranking({"max_slip_m", "largest slip", "m", 5}), [](const R& r) { return slip_cell(r.rigid(), r.rigid().max_slip); }},
         {{"upstream_slip_mm", "upstream", "mm", 4},
          [](const R& r) { return slip_cell(r.rigid(), r.rigid().upstream_slip / mm); }},
         {{"lift_offs", "lift-offs"}, [](const R& r) { return count_cell(r.rigid().lift_offs); }},
-        {{"status", "status"}, [](const R& r) { return word(r.rigid().status); }},
-        {{"verdict", "verdict"}, [&](const R& r) { return rigid_verdict_cell(r, allowable); }}};
+        {in_brief({"status", "status"}), [](const R& r) { return word(r.rigid().status); }},
+        {in_brief({"verdict", "verdict"}), [&](const R& r) { return rigid_verdict_cell(r, allowable); }}};
     const sliding::SlipStages& stages = s.bases.front().model.stages;
     if (!stages.empty() && stages.front().restitution > 0.0) {
         const std::vector<ColumnOf<R>> rebounds{
@@ -438,15 +440,15 @@ namespace {
 using RegressionColumn = ColumnOf<RegressionRow>;
 
 const RegressionColumn record_column{{"record", "record"}, &RegressionRow::record},
-    model_column{{"model", "regression"}, &RegressionRow::model},
-    slip_column{{"slip_mm", "slip", "mm", 4}, [](const RegressionRow&r) { return optional_cell(r.median, mm); }},
-    low_column{{"slip_minus_sigma_mm", "16 %", "mm", 4},
+    model_column{in_brief({"model", "regression"}), &RegressionRow::model},
+    slip_column{ranking({"slip_mm", "slip", "mm", 4}), [](const RegressionRow&r) { return optional_cell(r.median, mm); }},
+    low_column{in_brief({"slip_minus_sigma_mm", "16 %", "mm", 4}),
                [](const RegressionRow&r) { return optional_cell(r.low, mm); }},
-    high_column{{"slip_plus_sigma_mm", "84 %", "mm", 4},
+    high_column{in_brief({"slip_plus_sigma_mm", "84 %", "mm", 4}),
                 [](const RegressionRow&r) { return optional_cell(r.high, mm); }},
     zero_column{{"zero_probability", "P(D = 0)", "–", 3},
                 [](const RegressionRow&r) { return optional_cell(r.zero_probability); }},
-    remark_column{{"remark", "remark"}, &RegressionRow::remark};
+    remark_column{in_brief({"remark", "remark"}), &RegressionRow::remark};
 
 } // namespace
 
@@ -574,19 +576,19 @@ Table given_yield_table(const GivenYieldBlock& block, const std::vector<GivenYie
 {
     using R = GivenYieldRow;
     std::vector<ColumnOf<R>> columns{
-        {{"yield_g", "a_y", "g", 5}, [](const R& r) { return r.yield / standard_gravity; }},
-        {{"record", "record"}, &R::record},
-        {{"method", "method"}, &R::method},
+        {in_brief({"yield_g", "a_y", "g", 5}), [](const R& r) { return r.yield / standard_gravity; }},
+        {in_brief({"record", "record"}), &R::record},
+        {in_brief({"method", "method"}), &R::method},
         {{"pga_g", "PGA", "g", 4}, [](const R& r) { return r.pga / standard_gravity; }},
-        {{"yield_over_pga", "a_y/PGA", "–", 4},
+        {in_brief({"yield_over_pga", "a_y/PGA", "–", 4}),
          [](const R& r) { return r.pga > 0 ? finite_cell(r.yield / r.pga) : Cell(); }},
-        {{"slip_mm", "slip", "mm", 5}, [](const R& r) { return slip_or_none(r, r.normal.max_slip); }},
-        {{"slip_inverse_mm", "slip, record flipped", "mm", 5},
+        {ranking({"slip_mm", "slip", "mm", 5}), [](const R& r) { return slip_or_none(r, r.normal.max_slip); }},
+        {in_brief({"slip_inverse_mm", "slip, record flipped", "mm", 5}),
          [](const R& r) { return slip_or_none(r, r.inverse.max_slip); }},
-        {{"slip_mean_mm", "mean of both", "mm", 5}, [](const R& r) { return slip_or_none(r, r.mean_slip()); }},
+        {in_brief({"slip_mean_mm", "mean of both", "mm", 5}), [](const R& r) { return slip_or_none(r, r.mean_slip()); }},
         {{"largest_acceleration_g", "largest acceleration", "g", 4},
          [](const R& r) { return r.largest_acceleration / standard_gravity; }},
-        {{"status", "status"}, [](const R& r) { return word(r.status()); }}};
+        {in_brief({"status", "status"}), [](const R& r) { return word(r.status()); }}};
     if (block.flexible) {
         const auto period = [](const R& r) { return r.mode ? Cell(r.mode->period) : Cell(); };
         const auto damping = [](const R& r) { return r.mode ? Cell(100.0 * r.mode->damping_ratio) : Cell(); };
@@ -610,10 +612,10 @@ Table allowable_coefficient_table(const sliding::RegressionInputs& inputs, doubl
     using R = CoefficientRow;
     Table table =
         table_of<R>(fmt::format("Yield coefficient for a median slip of {:.4g} mm", allowable / units::mm),
-                    {{{"id", "id"}, &R::id},
-                     {{"model", "regression"}, &R::model},
-                     {{"k_allowable", "k(d*)", "g", 4}, [](const R& r) { return optional_cell(r.coefficient); }},
-                     {{"k_allowable_over_pga", "k(d*)/PGA", "–", 3},
+                    {{in_brief({"id", "id"}), &R::id},
+                     {in_brief({"model", "regression"}), &R::model},
+                     {in_brief({"k_allowable", "k(d*)", "g", 4}), [](const R& r) { return optional_cell(r.coefficient); }},
+                     {in_brief({"k_allowable_over_pga", "k(d*)/PGA", "–", 3}),
                       [&](const R& r) { return optional_cell(r.coefficient, inputs.pga_g); }}},
                     rows);
     table.notes.push_back(

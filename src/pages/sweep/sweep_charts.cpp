@@ -377,17 +377,17 @@ Table needed_friction_table(const SweepView& view, const std::optional<double>& 
     using N = NeededFriction;
     const std::vector<N> list = needed_frictions(view, allowable);
     std::vector<ColumnOf<N>> columns{
-        {{"method", "method"}, &N::method},
-        {{"friction", "friction", "–", 4}, [](const N& n) { return optional_cell(n.friction()); }},
-        {{"friction_low", "slips more at", "–", 4}, [](const N& n) { return optional_cell(n.more); }},
-        {{"friction_high", "holds from", "–", 4}, [](const N& n) { return optional_cell(n.holds); }},
-        {{"friction_error", "±", "–", 2},
+        {in_brief({"method", "method"}), &N::method},
+        {in_brief({"friction", "friction", "–", 4}), [](const N& n) { return optional_cell(n.friction()); }},
+        {in_brief({"friction_low", "slips more at", "–", 4}), [](const N& n) { return optional_cell(n.more); }},
+        {in_brief({"friction_high", "holds from", "–", 4}), [](const N& n) { return optional_cell(n.holds); }},
+        {in_brief({"friction_error", "±", "–", 2}),
          [](const N& n) {
              return n.friction() ? Cell(std::max(*n.friction() - *n.more, *n.holds - *n.friction())) : Cell();
          }},
-        {{"record", "governed by"}, &N::record},
-        {{"polarity", "polarity"}, [](const N& n) { return n.polarity ? count_cell(*n.polarity) : Cell(); }}};
-    if (view.variants.size() > 1) columns.insert(columns.begin(), {{"variant", "variant"}, &N::variant});
+        {in_brief({"record", "governed by"}), &N::record},
+        {in_brief({"polarity", "polarity"}), [](const N& n) { return n.polarity ? count_cell(*n.polarity) : Cell(); }}};
+    if (view.variants.size() > 1) columns.insert(columns.begin(), {in_brief({"variant", "variant"}), &N::variant});
     return table_of(
         fmt::format("Friction for a slip of {:.4g} mm at most{}", allowable.value_or(0.0) / units::mm,
                     list.empty() ? "" : ", " + polarity_words(view.polarities)),
@@ -400,19 +400,20 @@ Table needed_friction_table(const SweepView& view, const std::optional<double>& 
 
 namespace {
 
-std::optional<std::size_t> place_of(const Table& table, const std::string& key)
-{
-    const auto at = std::find_if(table.columns.begin(), table.columns.end(),
-                                 [&](const Column& column) { return column.key == key; });
-    if (at == table.columns.end()) return std::nullopt;
-    return static_cast<std::size_t>(at - table.columns.begin());
-}
-
 /// One motion, strength, variant and method under all rules.
 struct RuleLine {
-    std::vector<Cell> at;                   ///< of the columns that say where it is
+    const SweepRow& row;                    ///< under the first of them
+    const SweepVariant& variant;            ///< of it
     std::map<std::string, Cell> slips = {}; ///< by rule [mm], or the word of a status without a slip
 
+    /// Do both differ in the rule alone?
+    bool beside(const RuleLine& other) const
+    {
+        SweepVariant same = variant;
+        same.opening = other.variant.opening;
+        return same == other.variant && row.friction == other.row.friction && row.polarity == other.row.polarity &&
+               row.record == other.row.record && row.method == other.row.method;
+    }
     Cell apart() const
     {
         double least = HUGE_VAL, most = -HUGE_VAL;
@@ -427,59 +428,72 @@ struct RuleLine {
     }
 };
 
-bool varies(const Table& rows, std::size_t column)
+std::vector<RuleLine> rule_lines(const SweepView& view)
 {
-    return std::any_of(rows.rows.begin(), rows.rows.end(),
-                       [&](const std::vector<Cell>& row) { return row[column] != rows.rows.front()[column]; });
+    std::vector<RuleLine> lines;
+    for (const SweepRow& row : view.rows) {
+        const RuleLine line{row, view.variants[row.variant]};
+        const auto same = std::find_if(lines.begin(), lines.end(), [&](const RuleLine& l) { return l.beside(line); });
+        RuleLine& target = same == lines.end() ? lines.emplace_back(line) : *same;
+        target.slips[line.variant.opening] = row.slip ? Cell(std::abs(*row.slip) / mm) : Cell(std::string(row.status));
+    }
+    return lines;
+}
+
+/// Columns of what differs from line to line; friction and method always.
+std::vector<ColumnOf<RuleLine>> place_columns(const SweepView& view)
+{
+    using L = RuleLine;
+    const auto differs = [&](auto SweepVariant::*member) {
+        return std::any_of(view.variants.begin(), view.variants.end(),
+                           [&](const SweepVariant& v) { return v.*member != view.variants.front().*member; });
+    };
+    const auto of_variant = [](auto SweepVariant::*member) {
+        return [=](const L& l) { return Cell(l.variant.*member); };
+    };
+    std::vector<ColumnOf<L>> columns{
+        {in_brief({"friction", "μ", "–", 4}), [](const L& l) { return l.row.friction; }}};
+    const auto add = [&](Column column, auto SweepVariant::*member) {
+        if (differs(member)) columns.push_back({in_brief(std::move(column)), of_variant(member)});
+    };
+    add({"level_m", "level", "m", 4}, &SweepVariant::level);
+    add({"uplift", "uplift"}, &SweepVariant::uplift);
+    add({"reservoir", "reservoir"}, &SweepVariant::reservoir);
+    add({"size", "size", "–", 4}, &SweepVariant::size);
+    add({"scale", "scale", "–", 4}, &SweepVariant::scale);
+    if (view.polarities.size() > 1)
+        columns.push_back({in_brief({"polarity", "polarity"}), [](const L& l) { return l.row.polarity; }});
+    if (view.records.size() > 1)
+        columns.push_back({in_brief({"record", "record"}), [](const L& l) { return std::string(l.row.record); }});
+    columns.push_back({in_brief({"method", "method"}), [](const L& l) { return std::string(l.row.method); }});
+    return columns;
 }
 
 } // namespace
 
-std::optional<Table> opening_water_table(const Table& rows)
+std::optional<Table> opening_water_table(const SweepView& view)
 {
-    const auto rule_at = place_of(rows, "opening_water"), slip_at = place_of(rows, "max_slip_m"),
-               status_at = place_of(rows, "status");
-    if (!rule_at || !slip_at || !status_at || rows.rows.empty() || !varies(rows, *rule_at)) return std::nullopt;
-
-    std::vector<std::size_t> where;
-    for (const char* key :
-         {"friction", "level_m", "uplift", "reservoir", "size", "scale", "polarity", "record", "method"})
-        if (const auto at = place_of(rows, key);
-            at && (varies(rows, *at) || std::string_view(key) == "friction" || std::string_view(key) == "method"))
-            where.push_back(*at);
-
     std::vector<std::string> rules;
-    std::vector<RuleLine> lines;
-    for (const std::vector<Cell>& row : rows.rows) {
-        RuleLine line;
-        for (const std::size_t at : where) line.at.push_back(row[at]);
-        const auto* rule = std::get_if<std::string>(&row[*rule_at]);
-        if (!rule) continue;
-        if (std::find(rules.begin(), rules.end(), *rule) == rules.end()) rules.push_back(*rule);
-        const auto same = std::find_if(lines.begin(), lines.end(), [&](const RuleLine& l) { return l.at == line.at; });
-        RuleLine& target = same == lines.end() ? lines.emplace_back(std::move(line)) : *same;
-        const double* metres = std::get_if<double>(&row[*slip_at]);
-        target.slips[*rule] = metres ? Cell(std::abs(*metres) / units::mm) : row[*status_at];
-    }
-
-    std::vector<ColumnOf<RuleLine>> columns;
-    for (std::size_t k = 0; k < where.size(); ++k)
-        columns.push_back({rows.columns[where[k]], [k](const RuleLine& l) { return l.at[k]; }});
+    for (const SweepVariant& v : view.variants)
+        if (!v.opening.empty() && std::find(rules.begin(), rules.end(), v.opening) == rules.end())
+            rules.push_back(v.opening);
+    if (rules.size() < 2) return std::nullopt;
+    std::vector<ColumnOf<RuleLine>> columns = place_columns(view);
     for (const std::string& rule : rules)
-        columns.push_back({{rule + "_mm", rule, "mm", 4}, [rule](const RuleLine& l) {
+        columns.push_back({in_brief({rule + "_mm", rule, "mm", 4}), [rule](const RuleLine& l) {
                                const auto slip = l.slips.find(rule);
                                return slip == l.slips.end() ? Cell() : slip->second;
                            }});
-    columns.push_back({{"apart_mm", "apart", "mm", 3}, &RuleLine::apart});
-    return table_of("What the rules for water in the opening base are worth", columns, lines,
+    columns.push_back({ranking({"apart_mm", "apart", "mm", 3}), &RuleLine::apart});
+    return table_of("What the rules for water in the opening base are worth", columns, rule_lines(view),
                     {"largest slip on the way under each rule of uplift.opening; apart: the largest less the smallest. "
                      "Rigid block: reynolds is taken as unchanged, for a block has no width of the joint; mouth is its "
                      "rule for water that needs time."});
 }
 
-std::optional<Section> opening_water_section(const Table& rows)
+std::optional<Section> opening_water_section(const SweepView& view)
 {
-    std::optional<Table> table = opening_water_table(rows);
+    std::optional<Table> table = opening_water_table(view);
     if (!table) return std::nullopt;
     return Section{
         "Water in the opening base", {TablePart{std::move(*table), Layout::rows, 1, Fold::open}}, Fold::open};

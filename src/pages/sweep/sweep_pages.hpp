@@ -185,20 +185,21 @@ Table needed_friction_table(const SweepView& view, const std::optional<double>& 
 
 /// What the rules for water in the opening base are worth: largest slips on the way under each rule side by side, and how
 /// far they are apart. None where the rows of a sweep have fewer than two rules.
-/// @param rows  columns by their keys, as `sweep` writes them
-std::optional<Table> opening_water_table(const Table& rows);
-std::optional<Section> opening_water_section(const Table& rows);
+std::optional<Table> opening_water_table(const SweepView& view);
+std::optional<Section> opening_water_section(const SweepView& view);
 
 /// A sweep as the report that is handed in.
 
 struct SweepReportInput {
     const Scene* scene;               ///< as given; null: not known, as of merged parts
     const Table& rows;                ///< the whole table of the sweep, or its first rows where `view` is given
-    const std::vector<Table>& tables; ///< further ones: comparison of the methods, counts
+    const Table& compared;               ///< FE against the rigid block; without rows: no finite elements
+    const std::optional<FeSweepCounts>& fe; ///< none: no finite elements
     const std::vector<RecordPair>& records;
     std::filesystem::path csv;               ///< where the rows are; empty: nowhere
     std::vector<SlipHistory> histories = {}; ///< of the rows, in their order; empty: none kept
     const SweepView* view = nullptr;         ///< of all rows, of a sweep too long for one table; null: made from `rows`
+    std::string closing = {};                ///< of the full text: how many rows there are, and where
 };
 
 inline constexpr std::size_t listed_rows = 400; ///< that the report prints
@@ -208,8 +209,8 @@ Page sweep_page(const SweepReportInput& input);
 /// The page as one HTML file.
 std::string sweep_report(const SweepReportInput& input);
 
-/// What the terminal says of the rows. @param full  of --full, beside the rows
-Answer sweep_answer(const SweepReportInput& input, const std::string& full);
+/// The full text is what stands beside the rows. @pre input.scene
+Answer sweep_answer(const SweepReportInput& input);
 
 /// A sweep as tables.
 
@@ -235,12 +236,5 @@ Table comparison_table(const Grid& grid, const std::vector<SweepComparison>& com
 
 /// Counts that show how much was made once; the same for any number of threads.
 Table count_table(const FeSweepCounts& counts);
-
-/// @param compared  empty without FE
-nlohmann::ordered_json sweep_json(const Scene& given, const Table& rows, const Table& compared,
-                                  const SweepOutcome& outcome);
-
-/// FE against the rigid block, counts and seconds, beside the rows, which have standard output for themselves.
-std::string fe_sweep_text(const FeSweepCounts& counts, const Table& compared);
 
 } // namespace damslip::pages

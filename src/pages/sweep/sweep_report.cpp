@@ -17,6 +17,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 namespace damslip::pages {
 
@@ -391,45 +392,49 @@ std::vector<std::string> all_warnings(const SweepReportInput& in, const SweepVie
     return list;
 }
 
-/// Keys of the axes that have several values in the rows, then what the rows answer.
-std::vector<std::string> brief_row_columns(const Table& rows)
+/// Choices and seconds of the FE runs.
+std::string cost_text(const FeSweepCounts& c)
 {
-    std::vector<std::string> keys{"record", "polarity"};
-    for (const char* axis : {"friction", "level_m", "uplift", "opening_water", "reservoir", "size", "scale", "method"}) {
-        const auto at = std::find_if(rows.columns.begin(), rows.columns.end(), [&](const Column& c) { return c.key == axis; });
-        const auto j = static_cast<std::size_t>(at - rows.columns.begin());
-        if (at != rows.columns.end() &&
-            std::any_of(rows.rows.begin(), rows.rows.end(), [&](const auto& row) { return row[j] != rows.rows[0][j]; }))
-            keys.emplace_back(axis);
-    }
-    for (const char* key : {"max_slip_m", "slip_error_m", "truncation_error_m", "walked_at_least_m", "status"})
-        keys.emplace_back(key);
-    return keys;
+    std::string all;
+    for (const std::string& choice : c.choices) all += "  " + choice + "\n";
+    const auto runs = static_cast<double>(std::max<std::int64_t>(1, c.runs));
+    return all + fmt::format("  set-up {:.2f} s, statics {:.1f} ms a run, earthquakes {:.1f} s\n\n", c.set_up_seconds,
+                             1e3 * c.static_seconds / runs, c.dynamic_seconds);
 }
 
 } // namespace
 
-Answer sweep_answer(const SweepReportInput& in, const std::string& full)
+Answer sweep_answer(const SweepReportInput& in)
 {
+    constexpr std::size_t most_compared = 100; // lines that people read
     const SweepView own = in.view ? SweepView() : sweep_view(in.rows);
     const SweepView& view = in.view ? *in.view : own;
-    const std::optional<double> allowable = in.scene ? in.scene->criteria.allowable_slip : std::nullopt;
-    Answer answer;
-    answer += full;
+    const std::optional<double>& allowable = in.scene->criteria.allowable_slip;
+    Answer answer(json_header("sweep", *in.scene));
     answer.headline_in_brief(headline(view, allowable));
+    answer.add("rows", in.rows, {.text = false});
     Table rows = in.rows;
     rows.title = in.view ? fmt::format("The first {} rows", rows.rows.size()) : "Rows, those with the largest slips";
-    answer.add(rows, {brief_row_columns(in.rows), "max_slip_m"}, "");
-    answer.add(needed_friction_table(view, allowable),
-               {{"variant", "method", "friction", "friction_error", "friction_low", "friction_high", "record", "polarity"}},
-               "");
-    if (const std::optional<Table> rules = opening_water_table(in.rows)) {
-        std::vector<std::string> keys;
-        for (const Column& column : rules->columns) keys.push_back(column.key);
-        answer.add(*rules, {keys, "apart_mm"}, "");
+    answer.add("", std::move(rows), {.text = false, .brief = true, .data = false});
+    std::vector<std::string> notes;
+    if (const std::optional<std::string> note = base_note(*in.scene); note && in.fe) notes.push_back(*note + ".");
+    for (std::string& note : note_texts(in.scene->notes)) notes.push_back(std::move(note));
+    answer.set("notes", notes);
+    if (in.fe) {
+        const bool listed = in.compared.rows.size() <= most_compared;
+        answer.add("comparison", in.compared, {.text = listed});
+        if (!listed)
+            answer += fmt::format("FE against the rigid block: {} lines, with --json\n\n", in.compared.rows.size());
+        answer.add("counts", count_table(*in.fe), {.data = false});
+        answer.set("counts", json_of(count_table(*in.fe))[0]);
+        answer += cost_text(*in.fe);
     }
+    answer.add("needed", needed_friction_table(view, allowable), {.brief = true, .data = false});
+    if (std::optional<Table> rules = opening_water_table(view))
+        answer.add("opening_water", std::move(*rules), {.brief = true});
+    answer += in.closing;
     for (const std::string& note : all_warnings(in, view)) answer.note_in_brief(note);
-    if (in.scene && !finite_elements(view)) answer.next(fmt::format("damslip sweep {} --method rigid,fe", in.scene->file.string()));
+    if (!finite_elements(view)) answer.next(fmt::format("damslip sweep {} --method rigid,fe", in.scene->file.string()));
     return answer;
 }
 
@@ -467,11 +472,13 @@ Page sweep_page(const SweepReportInput& in)
     if (auto more = further_variants(view, allowable)) page.sections.push_back(std::move(*more));
     if (auto histories = history_section(view, in.histories)) page.sections.push_back(std::move(*histories));
     page.sections.push_back(variant_section(view, allowable));
-    if (auto rules = opening_water_section(in.rows)) page.sections.push_back(std::move(*rules));
+    if (auto rules = opening_water_section(view)) page.sections.push_back(std::move(*rules));
     Section methods{"Methods", {rows_part(method_table(view, allowable))}, Fold::open};
     if (auto chart = fe_over_rigid(view)) methods.parts.emplace_back(std::move(*chart));
     if (Chart chart = slip_over_yield_ratio(view); !chart.curves.empty()) methods.parts.emplace_back(std::move(chart));
-    for (const Table& table : in.tables) methods.parts.push_back(TablePart{table, Layout::rows, 1, Fold::folded});
+    if (in.fe)
+        for (const Table& table : {in.compared, count_table(*in.fe)})
+            methods.parts.push_back(TablePart{table, Layout::rows, 1, Fold::folded});
     page.sections.push_back(std::move(methods));
     page.sections.push_back(rows_section(in, view.all()));
     if (in.scene) {

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace damslip::pages {
 
@@ -59,33 +58,55 @@ std::vector<ColumnOf<SweepLine>> columns(const Grid& grid, bool mean)
         return [=](const L& l) { return optional_cell(l.results.*number); };
     };
     using R = RowResults;
-    std::vector<ColumnOf<L>> all{
-        {{"id", "id"}, [](const L& l) { return count_cell(l.id); }},
-        {{"friction", "μ", "–", 4}, [](const L& l) { return friction_of(l.axes(), l.at); }},
-        {{"level_m", "level", "m", 4},
+    const Axes& axes = grid.axes;
+    const auto if_varied = [](std::size_t values, Column column) { // only an axis with several values is an answer
+        return values > 1 ? in_brief(std::move(column)) : column;
+    };
+    std::vector<ColumnOf<L>> all{{{"id", "id"}, [](const L& l) { return count_cell(l.id); }}};
+    if (has_plane_axis(axes))
+        all.push_back({{"plane", "plane"}, [](const L& l) {
+                           const std::string& plane = l.axes().plane[l.at.plane];
+                           return plane.empty() ? Cell(std::string(base_plane)) : Cell(plane);
+                       }});
+    const std::vector<ColumnOf<L>> of_water{
+        {if_varied(axes.friction.size(), {"friction", "μ", "–", 4}),
+         [](const L& l) { return friction_of(l.axes(), l.at); }},
+        {if_varied(axes.level.size() * axes.size.size(), {"level_m", "level", "m", 4}),
          [](const L& l) { return l.axes().level[l.at.level] * l.axes().size[l.at.size]; }},
-        {{"uplift", "uplift"}, [](const L& l) { return l.axes().uplift[l.at.uplift]; }},
-        {{"reservoir", "reservoir"}, [](const L& l) { return l.axes().reservoir[l.at.reservoir]; }},
-        {{"size", "size", "–", 4}, [](const L& l) { return l.axes().size[l.at.size]; }},
-        {{"scale", "scale", "–", 4}, [](const L& l) { return l.axes().scale[l.at.scale]; }},
-        {{"polarity", "polarity"}, [](const L& l) { return l.axes().polarity[l.at.polarity]; }},
-        {{"record", "record"}, [](const L& l) { return l.grid.records[l.at.record]; }},
-        {{"method", "method"}, [](const L& l) { return l.axes().method[l.at.method].id; }},
+        {if_varied(axes.uplift.size(), {"uplift", "uplift"}), [](const L& l) { return l.axes().uplift[l.at.uplift]; }}};
+    all.insert(all.end(), of_water.begin(), of_water.end());
+    if (has_opening_axis(axes))
+        all.push_back({if_varied(axes.opening.size(), {"opening_water", "opening water"}),
+                       [](const L& l) { return l.axes().opening[l.at.opening]; }});
+    all.push_back({if_varied(axes.reservoir.size(), {"reservoir", "reservoir"}),
+                   [](const L& l) { return l.axes().reservoir[l.at.reservoir]; }});
+    all.push_back({if_varied(axes.size.size(), {"size", "size", "–", 4}),
+                   [](const L& l) { return l.axes().size[l.at.size]; }});
+    if (!axes.period.empty())
+        all.push_back({{"period_s", "T_s", "s", 4}, [](const L& l) { return l.axes().period[l.at.period]; }});
+    if (!axes.damping.empty())
+        all.push_back({{"damping", "damping", "–", 4}, [](const L& l) { return l.axes().damping[l.at.damping]; }});
+    const std::vector<ColumnOf<L>> rest{
+        {if_varied(axes.scale.size(), {"scale", "scale", "–", 4}), [](const L& l) { return l.axes().scale[l.at.scale]; }},
+        {in_brief({"polarity", "polarity"}), [](const L& l) { return l.axes().polarity[l.at.polarity]; }},
+        {in_brief({"record", "record"}), [](const L& l) { return l.grid.records[l.at.record]; }},
+        {if_varied(axes.method.size(), {"method", "method"}),
+         [](const L& l) { return l.axes().method[l.at.method].id; }},
         {{"yield_acceleration_m_s2", "a_y", "m/s²", 5}, [](const L& l) { return l.yield(); }},
         {{"yield_coefficient_g", "a_y", "g", 5}, [](const L& l) { return l.yield() / standard_gravity; }},
         {{"pga_m_s2", "PGA", "m/s²", 4}, [](const L& l) { return l.grid.pga(l.id); }},
         {{"slip_m", "slip", "m", 5}, given(&R::slip)},
-        {{"max_slip_m", "largest", "m", 5}, given(&R::max_slip)},
+        {ranking({"max_slip_m", "largest", "m", 5}), given(&R::max_slip)},
         {{"upstream_slip_m", "upstream", "m", 4}, given(&R::upstream_slip)},
         {{"slip_low_m", "−1σ", "m", 4}, given(&R::slip_low)},
         {{"slip_high_m", "+1σ", "m", 4}, given(&R::slip_high)},
-        {{"slip_error_m", "± step", "m", 2}, given(&R::slip_error)},
-        {{"truncation_error_m", "± modes", "m", 2}, given(&R::truncation_error)},
+        {in_brief({"slip_error_m", "± step", "m", 2}), given(&R::slip_error)},
+        {in_brief({"truncation_error_m", "± modes", "m", 2}), given(&R::truncation_error)},
         {{"critical_friction", "critical μ", "–", 6}, given(&R::critical_friction)},
-        {{"status", "status"}, [](const L& l) { return l.results.status.empty() ? Cell() : Cell(l.results.status); }},
+        {in_brief({"status", "status"}), [](const L& l) { return l.results.status.empty() ? Cell() : Cell(l.results.status); }},
         {{"lift_joint_slip_m", "lift joints", "m", 5}, given(&R::lift_slip)},
         {{"remark", "remark"}, remark},
-        {{"walked_at_least_m", "slid at least", "m", 5}, given(&R::walked)},
+        {in_brief({"walked_at_least_m", "slid at least", "m", 5}), given(&R::walked)},
         {{"thrust_over_friction", "χ", "–", 3}, given(&R::thrust_over_friction)},
         {{"hops", "lift-offs"},
          [](const L& l) { return l.results.hops ? Cell(std::llround(*l.results.hops)) : Cell(); }},
@@ -95,24 +116,7 @@ std::vector<ColumnOf<SweepLine>> columns(const Grid& grid, bool mean)
         {{"shaking_slip_m", "while shaken", "m", 5}, given(&R::slip_shaking)},
         {{"run_out_slip_m", "at rest", "m", 5}, given(&R::slip_at_rest)},
         {{"rock", "rock"}, [](const L& l) { return rock(l.grid, l.at); }}};
-    if (has_plane_axis(grid.axes))
-        all.insert(all.begin() + 1, {{"plane", "plane"}, [](const L& l) {
-                                         const std::string& plane = l.axes().plane[l.at.plane];
-                                         return plane.empty() ? Cell(std::string(base_plane)) : Cell(plane);
-                                     }});
-    const auto after = std::find_if(all.begin(), all.end(), [](const auto& c) { return c.column.key == "uplift"; }) + 1;
-    if (has_opening_axis(grid.axes))
-        all.insert(after,
-                   {{"opening_water", "opening water"}, [](const L& l) { return l.axes().opening[l.at.opening]; }});
-    const auto before_scale = [&all] {
-        return std::find_if(all.begin(), all.end(), [](const auto& c) { return c.column.key == "scale"; });
-    };
-    if (!grid.axes.period.empty())
-        all.insert(before_scale(),
-                   {{"period_s", "T_s", "s", 4}, [](const L& l) { return l.axes().period[l.at.period]; }});
-    if (!grid.axes.damping.empty())
-        all.insert(before_scale(),
-                   {{"damping", "damping", "–", 4}, [](const L& l) { return l.axes().damping[l.at.damping]; }});
+    all.insert(all.end(), rest.begin(), rest.end());
     for (std::size_t k = 0; k < grid.events.size(); ++k)
         all.push_back(
             {{fmt::format("slip_after_event_{}_m", k + 1), "after " + grid.events[k], "m", 5}, [k](const L& l) {
@@ -241,36 +245,6 @@ Table count_table(const FeSweepCounts& counts)
         std::vector<C>{counts},
         {"steps: of the pass that is reported of each run; factorisations: step sizes, each made once for "
          "all runs."});
-}
-
-nlohmann::ordered_json sweep_json(const Scene& given, const Table& rows, const Table& compared,
-                                  const SweepOutcome& outcome)
-{
-    auto j = json_header("sweep", given);
-    j["rows"] = json_of(rows);
-    std::vector<std::string> notes;
-    if (const std::optional<std::string> note = base_note(given); note && outcome.fe) notes.push_back(*note + ".");
-    for (std::string& note : note_texts(given.notes)) notes.push_back(std::move(note));
-    j["notes"] = notes;
-    if (const std::optional<Table> rules = opening_water_table(rows)) j["opening_water"] = json_of(*rules);
-    if (outcome.fe) {
-        j["comparison"] = json_of(compared);
-        j["counts"] = json_of(count_table(*outcome.fe))[0];
-    }
-    return j;
-}
-
-std::string fe_sweep_text(const FeSweepCounts& c, const Table& compared)
-{
-    constexpr std::size_t most_compared = 100; // lines that people read
-    std::string all = compared.rows.size() <= most_compared
-                          ? "\n" + text(compared) + "\n"
-                          : fmt::format("FE against the rigid block: {} lines, with --json\n\n", compared.rows.size());
-    all += text(count_table(c));
-    for (const std::string& choice : c.choices) all += "  " + choice + "\n";
-    const auto runs = static_cast<double>(std::max<std::int64_t>(1, c.runs));
-    return all + fmt::format("  set-up {:.2f} s, statics {:.1f} ms a run, earthquakes {:.1f} s\n\n", c.set_up_seconds,
-                             1e3 * c.static_seconds / runs, c.dynamic_seconds);
 }
 
 } // namespace damslip::pages
