@@ -149,16 +149,18 @@ int merge(const SweepArguments& arguments, const Streams& streams)
     RowsOut out(arguments.out, identity, table.columns, streams);
     UnansweredRows unanswered;
     std::vector<SlipHistory> histories;
+    SweepViewMaker view;
     constexpr std::size_t at_once = 8192;
     for (std::size_t first = 0; first < identity.rows; first += at_once) {
         std::vector<std::size_t> ids(std::min(at_once, identity.rows - first));
         std::iota(ids.begin(), ids.end(), first);
         const SweepOutcome part{whole->rows(ids.front(), ids.back()), ids.size(), ids.size(), {}};
-        for_each_sweep_row(grid, ids, part, false, [&](const std::vector<Cell>& row, const FinishedRow* finished) {
+        for_each_sweep_row(grid, ids, part, false, [&](const SweepLine& line, const std::vector<Cell>& row) {
             out.add(row);
             if (reported) table.rows.push_back(row);
-            if (identity.rows <= most_rows_with_history) histories.push_back(finished->history);
-            if (!finished->good) unanswered.add(static_cast<std::int64_t>(finished->id), status_of(*finished));
+            if (reported) view.add(line);
+            if (identity.rows <= most_rows_with_history) histories.push_back(line.row->history);
+            if (!line.row->good) unanswered.add(static_cast<std::int64_t>(line.id), status_of(*line.row));
         });
     }
     out.finish();
@@ -166,6 +168,7 @@ int merge(const SweepArguments& arguments, const Streams& streams)
         put_pages(arguments,
                   {scene ? &*scene : nullptr,
                    table,
+                   view.view(),
                    {},
                    {},
                    scene ? *load_records(*scene, Method::rigid_block) : std::vector<RecordPair>(),
@@ -222,10 +225,9 @@ void talk_of_damage(const ResultStore& store, const Streams& streams)
 }
 
 /// What of the rows is no answer, said even when quiet, and what has no error estimate.
-void talk_of_answers(const Table& table, const SweepOutcome& outcome, const Streams& streams)
+void talk_of_answers(const SweepView& view, const SweepOutcome& outcome, const Streams& streams)
 {
     if (outcome.all_good() && !outcome.fe) return;
-    const SweepView view = sweep_view(table);
     if (const std::string words = unanswered_words(view); !words.empty()) streams.talk << words << "\n";
     if (outcome.fe)
         for (const std::string& failure : outcome.fe->failures) streams.talk << "not resolved: " << failure << "\n";
@@ -278,8 +280,10 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
     if (outcome.fe && !job.shard) compared = comparison_table(grid, compare_with_rigid(job.scene, grid, outcome));
     if (!job.shard && (!job.arguments.out.empty() || rows_on_out(job.arguments, streams)))
         put(job.arguments.out, csv(table, csv_comments(identity)), streams);
+    const SweepView view = sweep_view(grid, wanted, outcome);
     const SweepReportInput in{.scene = &job.scene,
                               .rows = table,
+                              .view = view,
                               .compared = compared,
                               .fe = outcome.fe,
                               .records = records,
@@ -287,7 +291,7 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
                               .histories = histories_of(wanted, outcome),
                               .closing = rows_line(job, outcome.rows.size())};
     put_sweep_answer(job, in, streams);
-    if (streams.form != Form::text || streams.quiet || job.shard) talk_of_answers(table, outcome, streams);
+    if (streams.form != Form::text || streams.quiet || job.shard) talk_of_answers(view, outcome, streams);
     // A part has no report, nor has a table too large to be looked at.
     if (reports(job.arguments) && !job.shard && table.rows.size() <= largest_report)
         put_pages(job.arguments, in, streams);
@@ -317,7 +321,7 @@ int run_long(const Job& job, const Sweep& inputs, const SweepIdentity& identity,
         wanted.size() / job.tasks.friction * ((job.tasks.friction + every - 1) / every) <= largest_report;
     Grid grid = begin_grid(job.scene, job.axes, job.tasks, inputs.records);
     Table listed{"", sweep_columns(grid), {}, {}};
-    SweepViewMaker all(listed.columns, every);
+    SweepViewMaker all(every);
     if (reported) all.expect(wanted.size() / every);
     UnansweredRows unanswered;
     const std::size_t rows_of_friction = job.tasks.rows() / job.tasks.friction;
@@ -331,13 +335,13 @@ int run_long(const Job& job, const Sweep& inputs, const SweepIdentity& identity,
         [&](const Grid& held, const std::vector<std::size_t>& ids, const SweepOutcome& part) {
             if (store && !part.complete()) return;
             auto id = ids.begin();
-            for_each_sweep_row(held, ids, part, false, [&](const std::vector<Cell>& row, const FinishedRow* finished) {
+            for_each_sweep_row(held, ids, part, false, [&](const SweepLine& line, const std::vector<Cell>& row) {
                 if (rows) rows->add(row);
                 const bool drawn = *id++ / rows_of_friction % every == 0;
-                if (reported || in_brief) drawn ? all.add(row) : all.leave_out(row);
+                if (reported || in_brief) drawn ? all.add(line) : all.leave_out(line);
                 if (listed.rows.size() < listed_rows) listed.rows.push_back(row);
-                if (finished && !finished->good)
-                    unanswered.add(static_cast<std::int64_t>(finished->id), status_of(*finished));
+                if (line.row && !line.row->good)
+                    unanswered.add(static_cast<std::int64_t>(line.id), status_of(*line.row));
             });
         });
     if (store && totals.found && !streams.quiet)
@@ -348,11 +352,11 @@ int run_long(const Job& job, const Sweep& inputs, const SweepIdentity& identity,
     const SweepView view = reported || in_brief ? all.view() : SweepView();
     const SweepReportInput of_rows{.scene = &job.scene,
                                    .rows = listed,
+                                   .view = view,
                                    .compared = {},
                                    .fe = {},
                                    .records = *inputs.records,
                                    .csv = job.arguments.out,
-                                   .view = &view,
                                    .closing = rows_line(job, totals.rows)};
     put_sweep_answer(job, of_rows, streams);
     if (totals.bad) streams.talk << unanswered.words() << "\n";

@@ -4,7 +4,7 @@
 
 namespace damslip {
 
-std::string program_version(); ///< "0.1.0"
+std::string program_version(); ///< "0.2.0"
 
 /// Which vector instructions hot loops use.
 ///

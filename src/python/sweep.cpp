@@ -22,6 +22,7 @@ struct SweepResult final : Result {
     std::optional<Grid> grid;
     SweepOutcome outcome;
     Table rows, compared;
+    pages::SweepView seen; ///< of the rows
 
     std::vector<std::size_t> wanted() const
     {
@@ -36,7 +37,7 @@ struct SweepResult final : Result {
             const FinishedRow* row = outcome.find(id);
             histories.push_back(row ? row->history : SlipHistory{});
         }
-        return {&sweep->scene, rows, compared, outcome.fe, *sweep->records, {}, std::move(histories)};
+        return {&sweep->scene, rows, seen, compared, outcome.fe, *sweep->records, {}, std::move(histories)};
     }
     pages::Answer answer() const override { return pages::sweep_answer(input()); }
     std::string first_table() const override { return "rows"; }
@@ -97,6 +98,7 @@ std::shared_ptr<SweepResult> sweep(const OpenedScene& opened, const std::map<std
         result->grid.emplace(make_grid(all.scene, all.axes, all.tasks, all.records, jobs));
         result->outcome = run_sweep(all, *result->grid, result->wanted(), nullptr, jobs, watch);
         result->rows = pages::sweep_table(*result->grid, result->wanted(), result->outcome);
+        result->seen = pages::sweep_view(*result->grid, result->wanted(), result->outcome);
         if (result->outcome.fe)
             result->compared =
                 pages::comparison_table(*result->grid, compare_with_rigid(all.scene, *result->grid, result->outcome));

@@ -174,7 +174,7 @@ std::vector<std::string> warnings(const StudyPageInput& in)
     if (!in.rows.has("fe"))
         list.emplace_back("The finite elements ran in whole steps of the record. With --method ...,fe they run to the "
                           "default accuracy.");
-    for (const SweepRow& r : sweep_view(in.table).rows)
+    for (const SweepRow& r : in.view.rows)
         if (r.unanswered()) list.push_back(fmt::format("{}, μ = {:.2f}: {}", r.method, r.friction, r.status));
     for (std::string& w : record_warnings(in.records)) list.push_back(std::move(w));
     return list;

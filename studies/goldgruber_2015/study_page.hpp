@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pages/report/page.hpp"
+#include "pages/sweep/sweep_pages.hpp"
 #include "studies/goldgruber_2015/study_findings.hpp"
 #include "studies/goldgruber_2015/study_settings.hpp"
 
@@ -12,6 +13,7 @@ struct StudyPageInput {
     const Scene& scene; ///< as given
     const StudyRows& rows;
     const Table& table; ///< all rows
+    const pages::SweepView& view; ///< of them
     const std::vector<RecordPair>& records;
     const std::vector<StudyUplift>& uplifts;
     const std::vector<ModelModes>& modes;

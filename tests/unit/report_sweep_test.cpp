@@ -12,38 +12,59 @@ using namespace damslip;
 using namespace damslip;
 using namespace damslip::pages;
 
-/// Rows as `sweep` writes them. Slip of a row in mm, chosen so that every row is told from every other:
+struct TestRow {
+    SweepVariant variant;
+    std::string record, method, status;
+    SweepRow row;
+};
+
+/// Slip of a row in mm, chosen so that every row is told from every other:
 /// 100 (1 - μ) + 10 level index + record + method; polarity -1 slides half as far. Critical friction 0.7.
-Table sweep_rows(int records = 3)
+std::vector<TestRow> sweep_rows(int records = 3)
 {
-    Table t;
-    for (const char* key : {"id", "friction", "level_m", "uplift", "reservoir", "scale", "polarity", "record", "method",
-                            "yield_acceleration_m_s2", "pga_m_s2", "slip_m", "max_slip_m", "slip_low_m", "slip_high_m",
-                            "critical_friction", "status"})
-        t.columns.push_back({key, key, "", 4});
-    std::int64_t id = 0;
+    std::vector<TestRow> rows;
     for (const double friction : {0.9, 0.8, 0.65})
         for (const double level : {60.0, 50.0})
             for (const int polarity : {1, -1})
                 for (int record = 1; record <= records; ++record)
                     for (const std::string method : {"rigid", "fe"}) {
-                        const bool stands = friction > 0.7;
-                        const double slip =
-                            1e-3 *
-                            (100 * (1 - friction) + (level == 60.0 ? 10 : 0) + record + (method == "fe" ? 20 : 0)) *
-                            (polarity > 0 ? 1.0 : 0.5);
-                        t.rows.push_back({id++, friction, level, std::string("linear"), std::string("auto"), 1.0,
-                                          std::int64_t{polarity}, "record " + std::to_string(record), method,
-                                          10.0 * (friction - 0.7), 2.0, stands ? Cell(slip) : Cell(),
-                                          stands ? Cell(slip) : Cell(), Cell{}, Cell{}, 0.7,
-                                          std::string(stands ? "at rest" : "static failure")});
+                        TestRow& made = rows.emplace_back();
+                        made.variant = {.level = level, .uplift = "linear", .reservoir = "auto"};
+                        made.record = "record " + std::to_string(record);
+                        made.method = method;
+                        made.status = friction > 0.7 ? "at rest" : "static failure";
+                        SweepRow& row = made.row;
+                        row.id = static_cast<std::int64_t>(rows.size()) - 1;
+                        row.friction = friction;
+                        row.polarity = polarity;
+                        row.yield_acceleration = 10.0 * (friction - 0.7);
+                        row.pga = 2.0;
+                        row.critical_friction = 0.7;
+                        if (friction > 0.7)
+                            row.slip = 1e-3 *
+                                       (100 * (1 - friction) + (level == 60.0 ? 10 : 0) + record +
+                                        (method == "fe" ? 20 : 0)) *
+                                       (polarity > 0 ? 1.0 : 0.5);
                     }
-    return t;
+    return rows;
+}
+
+SweepView view_of(const std::vector<TestRow>& rows)
+{
+    SweepViewMaker maker;
+    for (const TestRow& r : rows) {
+        SweepRow row = r.row;
+        row.record = r.record;
+        row.method = r.method;
+        row.status = r.status;
+        maker.add(r.variant, row);
+    }
+    return maker.view();
 }
 
 TEST(SweepReport, ViewReadsVariantsMethodsAndStaticFailures)
 {
-    const SweepView view = sweep_view(sweep_rows());
+    const SweepView view = view_of(sweep_rows());
     ASSERT_EQ(view.variants.size(), 2u);
     EXPECT_EQ(view.variant_names[0], "level 60 m"); // only what differs
     EXPECT_EQ(view.frictions, (std::vector<double>{0.65, 0.8, 0.9}));
@@ -55,7 +76,7 @@ TEST(SweepReport, ViewReadsVariantsMethodsAndStaticFailures)
 
 TEST(SweepReport, SlipOverFrictionIsTheLargestOfFewRecords)
 {
-    const SweepView view = sweep_view(sweep_rows());
+    const SweepView view = view_of(sweep_rows());
     const pages::Chart chart = slip_over_friction(view, 0, 0.04);
     ASSERT_EQ(chart.curves.size(), 2u);
     const pages::Curve& fe = chart.curves[1];
@@ -72,7 +93,7 @@ TEST(SweepReport, SlipOverFrictionIsTheLargestOfFewRecords)
 
 TEST(SweepReport, SlipOverFrictionIsTheMedianOfManyRecordsWithABandOfOneMethod)
 {
-    const SweepView view = sweep_view(sweep_rows(5));
+    const SweepView view = view_of(sweep_rows(5));
     const pages::Chart chart = slip_over_friction(view, 0, {});
     ASSERT_EQ(chart.curves.size(), 2u);
     const pages::Curve& fe = chart.curves[1];
@@ -84,7 +105,7 @@ TEST(SweepReport, SlipOverFrictionIsTheMedianOfManyRecordsWithABandOfOneMethod)
 
 TEST(SweepReport, FeOverRigidPairsTheSameMotions)
 {
-    const auto chart = fe_over_rigid(sweep_view(sweep_rows()));
+    const auto chart = fe_over_rigid(view_of(sweep_rows()));
     ASSERT_TRUE(chart);
     const pages::Curve& fe = chart->curves[0];
     ASSERT_EQ(fe.x.size(), 24u); // 2 frictions that stand, 2 levels, 2 polarities, 3 records
@@ -92,14 +113,14 @@ TEST(SweepReport, FeOverRigidPairsTheSameMotions)
         const double more = fe.y[i] - fe.x[i];
         EXPECT_TRUE(std::abs(more - 20) < 1e-9 || std::abs(more - 10) < 1e-9) << more;
     }
-    Table rigid_only = sweep_rows();
-    std::erase_if(rigid_only.rows, [](const auto& row) { return std::get<std::string>(row[8]) == "fe"; });
-    EXPECT_FALSE(fe_over_rigid(sweep_view(rigid_only)));
+    std::vector<TestRow> rigid_only = sweep_rows();
+    std::erase_if(rigid_only, [](const TestRow& row) { return row.method == "fe"; });
+    EXPECT_FALSE(fe_over_rigid(view_of(rigid_only)));
 }
 
 TEST(SweepReport, PointsOverTheYieldRatioAndYieldOverFriction)
 {
-    const SweepView view = sweep_view(sweep_rows());
+    const SweepView view = view_of(sweep_rows());
     const pages::Chart ratio = slip_over_yield_ratio(view);
     ASSERT_EQ(ratio.curves.size(), 2u);
     EXPECT_EQ(ratio.curves[0].x.size(), 24u);
@@ -121,8 +142,12 @@ Scene sweep_scene()
 TEST(SweepReport, HeadlineCountsStaticFailuresAndRowsWithoutAnAnswer)
 {
     const Scene scene = sweep_scene();
-    Table rows = sweep_rows();
-    pages::Page page = sweep_page({&scene, rows, {}, {}, {}, "results.csv"});
+    std::vector<TestRow> rows = sweep_rows();
+    const auto page_of = [&](const std::vector<TestRow>& of) {
+        const Table none;
+        return sweep_page({&scene, none, view_of(of), {}, {}, {}, "results.csv"});
+    };
+    pages::Page page = page_of(rows);
     EXPECT_EQ(page.headline.outcome, pages::Outcome::none);
     EXPECT_NE(page.headline.sentence.find("72 rows: the largest slip is 53 mm (fe, μ = 0.8, record record 3)"),
               std::string::npos)
@@ -135,27 +160,25 @@ TEST(SweepReport, HeadlineCountsStaticFailuresAndRowsWithoutAnAnswer)
         "rigid base: no radiation damping; an elastic dam may slide on it without end."; // first of all
     EXPECT_EQ(page.warnings, std::vector<std::string>{rigid_base});
 
-    rows.rows[1][11] = rows.rows[1][12] = Cell{}; // an FE run at 0.9 that did not end
-    rows.rows[1][16] = std::string("not resolved");
-    page = sweep_page({&scene, rows, {}, {}, {}, "results.csv"});
+    rows[1].row.slip.reset(); // an FE run at 0.9 that did not end
+    rows[1].status = "not resolved";
+    page = page_of(rows);
     EXPECT_EQ(page.headline.outcome, pages::Outcome::unresolved);
     ASSERT_EQ(page.warnings.size(), 2u);
     EXPECT_EQ(page.warnings[0], rigid_base);
     EXPECT_NE(page.warnings[1].find("not resolved"), std::string::npos);
 
     // Nothing is said of a base below rigid blocks alone.
-    for (std::vector<Cell>& row : rows.rows)
-        if (std::get<std::string>(row[8]).starts_with("fe")) row[8] = std::string("rigid");
-    rows.rows[1][16] = std::string("at rest");
-    EXPECT_TRUE(sweep_page({&scene, rows, {}, {}, {}, "results.csv"}).warnings.empty());
+    for (TestRow& row : rows) row.method = "rigid";
+    rows[1].status = "at rest";
+    EXPECT_TRUE(page_of(rows).warnings.empty());
 }
 
 TEST(SweepReport, ATableWithoutRowsHasAPageToo)
 {
     const Scene scene = sweep_scene();
-    Table rows = sweep_rows();
-    rows.rows.clear();
-    EXPECT_NE(sweep_report({&scene, rows, {}, {}, {}, ""}).find("0 rows"), std::string::npos);
+    const Table rows;
+    EXPECT_NE(sweep_report({&scene, rows, view_of({}), {}, {}, {}, ""}).find("0 rows"), std::string::npos);
 }
 
 } // namespace

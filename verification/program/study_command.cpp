@@ -95,6 +95,7 @@ int study(const StudyArguments& arguments, const Streams& streams)
     // 3. what they say of the chapter's findings
     const StudyRows rows(grid, outcome);
     const Table table = sweep_table(grid, wanted, outcome);
+    const SweepView view = sweep_view(grid, wanted, outcome);
     const std::vector<StudyUplift> uplifts = study_uplifts(scene);
     const std::vector<ModelModes> modes = study_modes(scene);
     const RegressionsBeside regressions = regressions_beside_block(scene, records->front());
@@ -108,14 +109,14 @@ int study(const StudyArguments& arguments, const Streams& streams)
     write_file(sweep.out, csv(table, csv_comments(identity)));
     write_file(arguments.out / "findings.csv", csv(findings_table(findings)));
     const std::filesystem::path page = arguments.out / "report.html";
-    const StudyPageInput in{scene, rows, table, *records, uplifts, modes, regressions, findings, settings};
+    const StudyPageInput in{scene, rows, table, view, *records, uplifts, modes, regressions, findings, settings};
     write_file(page, page_html(study_page(in)));
     store.mark_done();
     streams.out << (streams.form == Form::json ? study_json(in).dump(2) + "\n" : findings_text(findings));
     if (!streams.quiet)
         streams.talk << fmt::format("{} rows in {}\nreport: {}\n", table.rows.size(), sweep.out.string(),
                                     page.string());
-    if (const std::string words = unanswered_words(sweep_view(table)); !words.empty()) streams.talk << words << "\n";
+    if (const std::string words = unanswered_words(view); !words.empty()) streams.talk << words << "\n";
     int code = outcome.all_good() ? exit_ok : exit_no_answer;
     for (const SettingsStep& step : settings) {
         if (!step.unanswered.empty()) streams.talk << fmt::format("{}: {}\n", step.change, step.unanswered.words());

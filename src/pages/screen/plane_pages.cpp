@@ -120,17 +120,26 @@ Table lift_plane_table(const Planes& planes)
     for (const PlaneRow& row : planes.rows)
         if (row.kind == PlaneKind::lift)
             lifts.push_back({planes.lifts[row.place], row, planes.lifts[row.place].states[last]});
-    std::vector<ColumnOf<L>> columns{
-        {{"elevation_m", "elevation", "m", 5}, [](const L& l) { return l.lift.elevation; }},
-        {{"lift", "lift"}, [](const L& l) { return l.row.name; }},
+    const bool named = std::any_of(lifts.begin(), lifts.end(), [](const L& l) { // else the elevation is the name
+        return !l.row.name.starts_with("lift at ");
+    });
+    const bool weakens = std::any_of(lifts.begin(), lifts.end(), [](const L& l) {
+        return std::isfinite(l.state.factor) && l.state.factor_residual != l.state.factor;
+    });
+    std::vector<ColumnOf<L>> columns{{{"elevation_m", "elevation", "m", 5}, [](const L& l) { return l.lift.elevation; }}};
+    if (named) columns.push_back({{"lift", "lift"}, [](const L& l) { return l.row.name; }});
+    const std::vector<ColumnOf<L>> forces{
         {{"normal_force_kN_m", "N'", "kN/m", 5}, [](const L& l) { return l.state.normal / kN; }},
         {{"shear_force_kN_m", "T", "kN/m", 5}, [](const L& l) { return l.state.shear / kN; }}};
+    columns.insert(columns.end(), forces.begin(), forces.end());
     if (last > 0)
         columns.push_back({{"factor_static", "F " + planes.states.front().ground.name, "–", 4},
                            [](const L& l) { return factor_cell(l.row, 0); }});
+    columns.push_back({{"factor", "F", "–", 4}, [last](const L& l) { return factor_cell(l.row, last); }});
+    if (weakens)
+        columns.push_back({{"factor_residual", "F residual", "–", 4},
+                           [](const L& l) { return finite_cell(l.state.factor_residual); }});
     const std::vector<ColumnOf<L>> rest{
-        {{"factor", "F", "–", 4}, [last](const L& l) { return factor_cell(l.row, last); }},
-        {{"factor_residual", "F residual", "–", 4}, [](const L& l) { return finite_cell(l.state.factor_residual); }},
         {{"heel_stress_kPa", "σ up", "kPa", 4}, [](const L& l) { return finite_cell(l.state.heel_stress, kPa); }},
         {{"toe_stress_kPa", "σ down", "kPa", 4}, [](const L& l) { return finite_cell(l.state.toe_stress, kPa); }},
         {{"crack_m", "crack", "m", 4}, [](const L& l) { return l.state.base.crack.length; }},
@@ -139,15 +148,6 @@ Table lift_plane_table(const Planes& planes)
         {{"joint_peak_m_s2", "max a_J", "m/s²", 4}, [](const L& l) { return optional_cell(l.row.joint_peak); }},
         {{"slip_mm", "slip", "mm", 5}, [](const L& l) { return optional_cell(slip_of(l.row), mm); }}};
     columns.insert(columns.end(), rest.begin(), rest.end());
-    const bool weakens = std::any_of(lifts.begin(), lifts.end(), [](const L& l) {
-        return std::isfinite(l.state.factor) && l.state.factor_residual != l.state.factor;
-    });
-    std::erase_if(columns, [&](const ColumnOf<L>& c) { return c.column.key == "factor_residual" && !weakens; });
-    std::erase_if(columns, [&](const ColumnOf<L>& c) { // the names say the elevation
-        return c.column.key == "lift" && std::all_of(lifts.begin(), lifts.end(), [](const L& l) {
-                   return l.row.name.starts_with("lift at ");
-               });
-    });
     return table_of<L>("Lifts", columns, lifts,
                        {fmt::format("N', T, F, stresses (compression positive, effective) and crack in {}; a_y: of the ground, "
                                     "Ā: mean acceleration of the part above over it; max a_J: of the joint in all records.",

@@ -404,7 +404,8 @@ namespace {
 struct RuleLine {
     const SweepRow& row;                    ///< under the first of them
     const SweepVariant& variant;            ///< of it
-    std::map<std::string, Cell> slips = {}; ///< by rule [mm], or the word of a status without a slip
+    /// By rule: slip [mm], or the word of a status without one.
+    std::map<std::string, std::pair<std::optional<double>, std::string>> slips = {};
 
     /// Do both differ in the rule alone?
     bool beside(const RuleLine& other) const
@@ -417,13 +418,11 @@ struct RuleLine {
     Cell apart() const
     {
         double least = HUGE_VAL, most = -HUGE_VAL;
-        for (const auto& [rule, slip] : slips)
-            if (const double* mm = std::get_if<double>(&slip)) {
-                least = std::min(least, *mm);
-                most = std::max(most, *mm);
-            } else {
-                return {};
-            }
+        for (const auto& [rule, found] : slips) {
+            if (!found.first) return {};
+            least = std::min(least, *found.first);
+            most = std::max(most, *found.first);
+        }
         return slips.size() > 1 ? Cell(most - least) : Cell();
     }
 };
@@ -435,7 +434,8 @@ std::vector<RuleLine> rule_lines(const SweepView& view)
         const RuleLine line{row, view.variants[row.variant]};
         const auto same = std::find_if(lines.begin(), lines.end(), [&](const RuleLine& l) { return l.beside(line); });
         RuleLine& target = same == lines.end() ? lines.emplace_back(line) : *same;
-        target.slips[line.variant.opening] = row.slip ? Cell(std::abs(*row.slip) / mm) : Cell(std::string(row.status));
+        target.slips[line.variant.opening] = {
+            row.slip ? std::optional(std::abs(*row.slip) / mm) : std::nullopt, std::string(row.status)};
     }
     return lines;
 }
@@ -481,8 +481,10 @@ std::optional<Table> opening_water_table(const SweepView& view)
     std::vector<ColumnOf<RuleLine>> columns = place_columns(view);
     for (const std::string& rule : rules)
         columns.push_back({in_brief({rule + "_mm", rule, "mm", 4}), [rule](const RuleLine& l) {
-                               const auto slip = l.slips.find(rule);
-                               return slip == l.slips.end() ? Cell() : slip->second;
+                               const auto found = l.slips.find(rule);
+                               if (found == l.slips.end()) return Cell();
+                               const auto& [slip, status] = found->second;
+                               return slip ? Cell(*slip) : Cell(status);
                            }});
     columns.push_back({ranking({"apart_mm", "apart", "mm", 3}), &RuleLine::apart});
     return table_of("What the rules for water in the opening base are worth", columns, rule_lines(view),

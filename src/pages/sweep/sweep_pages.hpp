@@ -98,31 +98,55 @@ struct SweepView {
     std::shared_ptr<const Words> words; ///< that the rows look at
 };
 
+/// A row: its place in the grid and what was found there.
+struct SweepLine {
+    const Grid& grid;
+    std::size_t id;
+    GridIndex at;
+    const RowResults& results;
+    const FinishedRow* row = nullptr;  ///< null: not reached
+    std::optional<double> mean = {};   ///< slip of both polarities [m]
+
+    const Axes& axes() const { return grid.axes; }
+    double yield() const { return results.yield ? *results.yield : grid.yield(at); }
+    bool finite_elements() const { return axes().method[at.method].kind == SweepKind::finite_elements; }
+    /// Nothing finer was run beside a slip of finite elements.
+    bool error_known() const { return !finite_elements() || !results.slip || results.slip_error; }
+};
+
 /// Makes the view of rows that come one by one.
 class SweepViewMaker {
 public:
-    /// @param columns  by their keys, as `sweep` writes them; one that is missing has its default
     /// @param every  n where only the rows of every n-th friction are added; the others are left out
-    explicit SweepViewMaker(const std::vector<Column>& columns, std::size_t every = 1);
-    ~SweepViewMaker();
+    explicit SweepViewMaker(std::size_t every = 1);
     void expect(std::size_t rows); ///< that many will be added: their memory is taken once
-    void add(const std::vector<Cell>& row);
-    void leave_out(const std::vector<Cell>& row);
+    void add(const SweepLine& line);
+    void leave_out(const SweepLine& line);
+    /// @param row  its words are copied, its variant is found
+    void add(const SweepVariant& variant, SweepRow row);
     SweepView view(); ///< of all that was added; once
 
 private:
-    struct Parts;
-
-    std::size_t variant_of(const std::vector<Cell>& row);
-    SweepRow row_of(const std::vector<Cell>& row);
+    SweepRow row_of(const SweepLine& line);
+    std::size_t variant_of(const SweepLine& line);
+    std::size_t number_of(const SweepVariant& variant);
+    std::string_view kept(std::string_view word);
+    std::string_view listed(const std::string& word, std::vector<std::string>& list);
+    void complete(SweepRow& row);
+    void put(const SweepRow& row);
     void group_rows();
 
     SweepView view_;
-    std::unique_ptr<Parts> parts_;
+    std::shared_ptr<SweepView::Words> words_ = std::make_shared<SweepView::Words>();
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> variants_; ///< by TaskList::variant() and scale
+    std::vector<std::string_view> records_, methods_;                     ///< by their places on the axes
+    std::set<double> frictions_;
+    std::string_view last_status_;
+    std::optional<Status> last_state_;
 };
 
-/// Of rows in one table.
-SweepView sweep_view(const Table& table);
+/// Of all rows. @param ids  ascending
+SweepView sweep_view(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome);
 
 /// Rows without an answer, how many and which: "3 rows have no answer: 2 not resolved (rows 4, 7), 1 tolerance missed (row 9)";
 /// empty where all have one. Of many only the first are named.
@@ -191,14 +215,14 @@ std::optional<Section> opening_water_section(const SweepView& view);
 /// A sweep as the report that is handed in.
 
 struct SweepReportInput {
-    const Scene* scene;               ///< as given; null: not known, as of merged parts
-    const Table& rows;                ///< the whole table of the sweep, or its first rows where `view` is given
+    const Scene* scene;                  ///< as given; null: not known, as of merged parts
+    const Table& rows;                   ///< the whole table, or the first rows of a long one
+    const SweepView& view;               ///< of all rows
     const Table& compared;               ///< FE against the rigid block; without rows: no finite elements
     const std::optional<FeSweepCounts>& fe; ///< none: no finite elements
     const std::vector<RecordPair>& records;
     std::filesystem::path csv;               ///< where the rows are; empty: nowhere
     std::vector<SlipHistory> histories = {}; ///< of the rows, in their order; empty: none kept
-    const SweepView* view = nullptr;         ///< of all rows, of a sweep too long for one table; null: made from `rows`
     std::string closing = {};                ///< of the full text: how many rows there are, and where
 };
 
@@ -219,12 +243,12 @@ Answer sweep_answer(const SweepReportInput& input);
 Table sweep_table(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome,
                   bool mean = false);
 
-/// Takes the cells of a row, which are overwritten by those of the next. @param row  null: not reached
-using TakeRow = std::function<void(const std::vector<Cell>& cells, const FinishedRow* row)>;
+/// Takes a row and its cells in that table, which are overwritten by those of the next.
+using TakeLine = std::function<void(const SweepLine& line, const std::vector<Cell>& cells)>;
 
-/// The rows of that table one after the other, none of them held. @param ids  ascending
+/// The rows one after the other, none of them held. @param ids  ascending
 void for_each_sweep_row(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome, bool mean,
-                        const TakeRow& take);
+                        const TakeLine& take);
 
 /// Its columns.
 std::vector<Column> sweep_columns(const Grid& grid, bool mean = false);

@@ -407,14 +407,14 @@ std::string cost_text(const FeSweepCounts& c)
 Answer sweep_answer(const SweepReportInput& in)
 {
     constexpr std::size_t most_compared = 100; // lines that people read
-    const SweepView own = in.view ? SweepView() : sweep_view(in.rows);
-    const SweepView& view = in.view ? *in.view : own;
+    const SweepView& view = in.view;
     const std::optional<double>& allowable = in.scene->criteria.allowable_slip;
     Answer answer(json_header("sweep", *in.scene));
     answer.headline_in_brief(headline(view, allowable));
     answer.add("rows", in.rows, {.text = false});
     Table rows = in.rows;
-    rows.title = in.view ? fmt::format("The first {} rows", rows.rows.size()) : "Rows, those with the largest slips";
+    rows.title = rows.rows.size() < view.all() ? fmt::format("The first {} rows", rows.rows.size())
+                                              : "Rows, those with the largest slips";
     answer.add("", std::move(rows), {.text = false, .brief = true, .data = false});
     std::vector<std::string> notes;
     if (const std::optional<std::string> note = base_note(*in.scene); note && in.fe) notes.push_back(*note + ".");
@@ -440,8 +440,7 @@ Answer sweep_answer(const SweepReportInput& in)
 
 Page sweep_page(const SweepReportInput& in)
 {
-    const SweepView own = in.view ? SweepView() : sweep_view(in.rows);
-    const SweepView& view = in.view ? *in.view : own;
+    const SweepView& view = in.view;
     const std::optional<double> allowable = in.scene ? in.scene->criteria.allowable_slip : std::nullopt;
     const std::string about = "Sliding in an earthquake: sweep over friction and more. ";
     Page page;

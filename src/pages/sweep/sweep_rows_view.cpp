@@ -1,81 +1,16 @@
 #include "pages/sweep/sweep_pages.hpp"
 
+#include "analysis/prepare/plane_model.hpp"
 #include "sliding/empirical/regression.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <numeric>
-#include <tuple>
 
 namespace damslip::pages {
 
 namespace {
-
-/// Where the cell of a key is.
-class Place {
-public:
-    Place(const std::vector<Column>& columns, std::string_view key)
-    {
-        const auto at = std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.key == key; });
-        if (at != columns.end()) place_ = static_cast<std::size_t>(at - columns.begin());
-    }
-
-    std::optional<double> number(const std::vector<Cell>& row) const
-    {
-        if (!place_) return std::nullopt;
-        if (const double* value = std::get_if<double>(&row[*place_])) return *value;
-        if (const std::int64_t* value = std::get_if<std::int64_t>(&row[*place_])) return static_cast<double>(*value);
-        return std::nullopt;
-    }
-    std::string_view word(const std::vector<Cell>& row) const
-    {
-        const std::string* value = place_ ? std::get_if<std::string>(&row[*place_]) : nullptr;
-        return value ? std::string_view(*value) : std::string_view();
-    }
-
-private:
-    std::optional<std::size_t> place_; ///< none: no such column
-};
-
-/// The words of a column, each held once: equal ones have the same place in memory.
-class WordColumn {
-public:
-    WordColumn(const std::vector<Column>& columns, std::string_view key, SweepView::Words& words)
-        : place_(columns, key), words_(words)
-    {
-    }
-
-    std::string_view of(const std::vector<Cell>& row)
-    {
-        const std::string_view word = place_.word(row);
-        if (last_.data() && word == last_) return last_;
-        const auto known = words_.find(word);
-        return last_ = known != words_.end() ? *known : *words_.emplace(word).first;
-    }
-
-private:
-    Place place_;
-    SweepView::Words& words_;
-    std::string_view last_;
-};
-
-/// Different words in the order in which they come.
-class WordList {
-public:
-    explicit WordList(std::vector<std::string>& list) : list_(list) {}
-
-    std::size_t place(std::string_view word)
-    {
-        const auto [at, fresh] = places_.try_emplace(word.data(), list_.size());
-        if (fresh) list_.emplace_back(word);
-        return at->second;
-    }
-
-private:
-    std::vector<std::string>& list_;
-    std::map<const char*, std::size_t> places_; ///< words of a WordColumn
-};
 
 std::vector<std::string> names_of(const std::vector<SweepVariant>& variants)
 {
@@ -104,96 +39,98 @@ std::vector<std::string> names_of(const std::vector<SweepVariant>& variants)
 
 } // namespace
 
-/// What is needed to make a view, and not afterwards.
-struct SweepViewMaker::Parts {
-    Parts(const std::vector<Column>& columns, SweepView& view)
-        : words(std::make_shared<SweepView::Words>()), id(columns, "id"), friction(columns, "friction"),
-          level(columns, "level_m"), size(columns, "size"), scale(columns, "scale"), period(columns, "period_s"),
-          damping(columns, "damping"), polarity(columns, "polarity"), yield(columns, "yield_acceleration_m_s2"),
-          pga(columns, "pga_m_s2"), slip(columns, "slip_m"), max_slip(columns, "max_slip_m"),
-          low(columns, "slip_low_m"), high(columns, "slip_high_m"), error(columns, "slip_error_m"),
-          critical(columns, "critical_friction"), remark(columns, "remark"), uplift(columns, "uplift", *words),
-          opening(columns, "opening_water", *words), plane(columns, "plane", *words), reservoir(columns, "reservoir", *words),
-          record(columns, "record", *words), method(columns, "method", *words), status(columns, "status", *words),
-          methods(view.methods), records(view.records)
-    {
-    }
-
-    std::shared_ptr<SweepView::Words> words;
-    Place id, friction, level, size, scale, period, damping, polarity, yield, pga, slip, max_slip, low, high, error,
-        critical, remark;
-    WordColumn uplift, opening, plane, reservoir, record, method, status;
-    WordList methods, records;
-    std::set<double> frictions;
-
-    using Variant = std::tuple<double, double, double, std::optional<double>, std::optional<double>, const char*,
-                               const char*, const char*, const char*>; ///< numbers, and words by their place
-    std::map<Variant, std::size_t> variants;
-    std::optional<std::pair<Variant, std::size_t>> last_variant;
-    std::string_view last_status;
-    std::optional<Status> last_state;
-};
-
-SweepViewMaker::SweepViewMaker(const std::vector<Column>& columns, std::size_t every)
-    : parts_(std::make_unique<Parts>(columns, view_))
+SweepViewMaker::SweepViewMaker(std::size_t every)
 {
     view_.every = every;
 }
 
-SweepViewMaker::~SweepViewMaker() = default;
-
-std::size_t SweepViewMaker::variant_of(const std::vector<Cell>& row)
+std::string_view SweepViewMaker::kept(std::string_view word)
 {
-    Parts& p = *parts_;
-    const double level = p.level.number(row).value_or(0.0), size = p.size.number(row).value_or(1.0),
-                 scale = p.scale.number(row).value_or(1.0);
-    const std::optional<double> period = p.period.number(row), damping = p.damping.number(row);
-    const std::string_view uplift = p.uplift.of(row), reservoir = p.reservoir.of(row), opening = p.opening.of(row),
-                           plane = p.plane.of(row);
-    const Parts::Variant key{level, size, scale, period, damping, uplift.data(), reservoir.data(), opening.data(),
-                             plane.data()};
-    if (p.last_variant && p.last_variant->first == key) return p.last_variant->second;
-    const auto [at, fresh] = p.variants.try_emplace(key, view_.variants.size());
-    if (fresh)
-        view_.variants.push_back(
-            {level, std::string(uplift), std::string(reservoir), size, scale, std::string(opening), period, damping,
-             std::string(plane)});
-    p.last_variant = {key, at->second};
-    return at->second;
+    const auto known = words_->find(word);
+    return known != words_->end() ? *known : *words_->emplace(word).first;
 }
 
-SweepRow SweepViewMaker::row_of(const std::vector<Cell>& row)
+/// The word, which the list then has.
+std::string_view SweepViewMaker::listed(const std::string& word, std::vector<std::string>& list)
 {
-    Parts& p = *parts_;
-    SweepRow r;
-    r.variant = variant_of(row);
-    r.friction = p.friction.number(row).value_or(0.0);
-    r.polarity = static_cast<int>(p.polarity.number(row).value_or(1.0));
-    r.record = p.record.of(row);
-    r.method = p.method.of(row);
-    r.yield_acceleration = p.yield.number(row).value_or(0.0);
-    r.pga = p.pga.number(row).value_or(0.0);
-    if (std::find(view_.polarities.begin(), view_.polarities.end(), r.polarity) == view_.polarities.end())
-        view_.polarities.push_back(r.polarity);
-    r.critical_friction = p.critical.number(row);
-    r.slip = p.max_slip.number(row);
-    if (!r.slip) r.slip = p.slip.number(row);
-    r.error = p.error.number(row);
-    r.low = p.low.number(row);
-    r.high = p.high.number(row);
-    r.status = p.status.of(row);
-    if (r.status.data() != p.last_status.data()) p.last_state = status_of_word(r.status);
-    p.last_status = r.status;
-    r.state = p.last_state;
-    if (r.unanswered()) r.slip.reset();
-    r.error_known = p.remark.word(row) != no_error_estimate;
-    r.id = static_cast<std::int64_t>(p.id.number(row).value_or(0.0));
+    if (std::find(list.begin(), list.end(), word) == list.end()) list.push_back(word);
+    return kept(word);
+}
+
+std::size_t SweepViewMaker::number_of(const SweepVariant& variant)
+{
+    const auto at = std::find(view_.variants.begin(), view_.variants.end(), variant);
+    if (at == view_.variants.end()) view_.variants.push_back(variant);
+    return static_cast<std::size_t>(std::find(view_.variants.begin(), view_.variants.end(), variant) -
+                                    view_.variants.begin());
+}
+
+std::size_t SweepViewMaker::variant_of(const SweepLine& l)
+{
+    const auto [known, fresh] = variants_.try_emplace({l.grid.tasks.variant(l.at), l.at.scale}, 0);
+    if (!fresh) return known->second;
+    const Axes& axes = l.axes();
+    SweepVariant variant{.level = axes.level[l.at.level] * axes.size[l.at.size],
+                         .uplift = axes.uplift[l.at.uplift],
+                         .reservoir = axes.reservoir[l.at.reservoir],
+                         .size = axes.size[l.at.size],
+                         .scale = axes.scale[l.at.scale]};
+    if (has_opening_axis(axes)) variant.opening = axes.opening[l.at.opening];
+    if (!axes.period.empty()) variant.period = axes.period[l.at.period];
+    if (!axes.damping.empty()) variant.damping = axes.damping[l.at.damping];
+    if (has_plane_axis(axes))
+        variant.plane = axes.plane[l.at.plane].empty() ? std::string(base_plane) : axes.plane[l.at.plane];
+    return known->second = number_of(variant);
+}
+
+SweepRow SweepViewMaker::row_of(const SweepLine& l)
+{
+    const Axes& axes = l.axes();
+    records_.resize(std::max(records_.size(), l.grid.records.size()));
+    methods_.resize(axes.method.size());
+    std::string_view &record = records_[l.at.record], &method = methods_[l.at.method];
+    if (!record.data()) record = listed(l.grid.records[l.at.record], view_.records);
+    if (!method.data()) method = listed(axes.method[l.at.method].id, view_.methods);
+    const RowResults& found = l.results;
+    if (!last_status_.data() || found.status != last_status_) {
+        last_status_ = kept(found.status);
+        last_state_ = status_of_word(last_status_);
+    }
+    SweepRow row{.id = static_cast<std::int64_t>(l.id),
+                 .variant = variant_of(l),
+                 .friction = friction_of(axes, l.at),
+                 .polarity = axes.polarity[l.at.polarity],
+                 .record = record,
+                 .method = method,
+                 .yield_acceleration = l.yield(),
+                 .pga = l.grid.pga(l.id),
+                 .slip = found.max_slip ? found.max_slip : found.slip,
+                 .error = found.slip_error,
+                 .low = found.slip_low,
+                 .high = found.slip_high,
+                 .critical_friction = found.critical_friction,
+                 .status = last_status_,
+                 .state = last_state_,
+                 .error_known = l.error_known()};
+    complete(row);
+    return row;
+}
+
+/// What counts as a slip here.
+void SweepViewMaker::complete(SweepRow& row)
+{
+    if (row.unanswered()) row.slip.reset();
     // Nor has a regression outside its data one to draw or to take medians of; the file has it.
-    if (r.status == sliding::outside_its_range) r.slip.reset(), r.low.reset(), r.high.reset();
-    p.methods.place(r.method);
-    p.records.place(r.record);
-    view_.unanswered.add(r.id, r.state);
-    return r;
+    if (row.status == sliding::outside_its_range) row.slip.reset(), row.low.reset(), row.high.reset();
+    if (std::find(view_.polarities.begin(), view_.polarities.end(), row.polarity) == view_.polarities.end())
+        view_.polarities.push_back(row.polarity);
+    view_.unanswered.add(row.id, row.state);
+}
+
+void SweepViewMaker::put(const SweepRow& row)
+{
+    if (view_.rows.empty() || row.friction != view_.rows.back().friction) frictions_.insert(row.friction);
+    view_.rows.push_back(row);
 }
 
 void SweepViewMaker::expect(std::size_t rows)
@@ -201,16 +138,25 @@ void SweepViewMaker::expect(std::size_t rows)
     view_.rows.reserve(rows);
 }
 
-void SweepViewMaker::add(const std::vector<Cell>& row)
+void SweepViewMaker::add(const SweepLine& line)
 {
-    const SweepRow r = row_of(row);
-    if (view_.rows.empty() || r.friction != view_.rows.back().friction) parts_->frictions.insert(r.friction);
-    view_.rows.push_back(r);
+    put(row_of(line));
 }
 
-void SweepViewMaker::leave_out(const std::vector<Cell>& row)
+void SweepViewMaker::add(const SweepVariant& variant, SweepRow row)
 {
-    const SweepRow r = row_of(row);
+    row.variant = number_of(variant);
+    row.record = listed(std::string(row.record), view_.records);
+    row.method = listed(std::string(row.method), view_.methods);
+    row.status = kept(row.status);
+    row.state = status_of_word(row.status);
+    complete(row);
+    put(row);
+}
+
+void SweepViewMaker::leave_out(const SweepLine& line)
+{
+    const SweepRow r = row_of(line);
     ++view_.left_out;
     const std::optional<SweepRow>& largest = view_.largest_left_out;
     if (r.slip && (!largest || std::abs(*r.slip) > std::abs(*largest->slip))) view_.largest_left_out = r;
@@ -220,7 +166,10 @@ void SweepViewMaker::leave_out(const std::vector<Cell>& row)
 void SweepViewMaker::group_rows()
 {
     const std::size_t methods = view_.methods.size(), n = view_.rows.size();
-    const auto slot = [&](const SweepRow& r) { return r.variant * methods + parts_->methods.place(r.method); };
+    const auto slot = [&](const SweepRow& r) {
+        const auto at = std::find(view_.methods.begin(), view_.methods.end(), r.method);
+        return r.variant * methods + static_cast<std::size_t>(at - view_.methods.begin());
+    };
     std::vector<std::size_t>& begin = view_.group_begin;
     begin.assign(view_.variants.size() * methods + 1, 0);
     for (const SweepRow& r : view_.rows) ++begin[slot(r) + 1];
@@ -240,17 +189,17 @@ void SweepViewMaker::group_rows()
 
 SweepView SweepViewMaker::view()
 {
-    view_.frictions.assign(parts_->frictions.begin(), parts_->frictions.end());
+    view_.frictions.assign(frictions_.begin(), frictions_.end());
     view_.variant_names = names_of(view_.variants);
     group_rows();
-    view_.words = parts_->words;
+    view_.words = words_;
     return std::move(view_);
 }
 
-SweepView sweep_view(const Table& table)
+SweepView sweep_view(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome)
 {
-    SweepViewMaker maker(table.columns);
-    for (const std::vector<Cell>& row : table.rows) maker.add(row);
+    SweepViewMaker maker;
+    for_each_sweep_row(grid, ids, outcome, false, [&](const SweepLine& line, const std::vector<Cell>&) { maker.add(line); });
     return maker.view();
 }
 

@@ -15,23 +15,10 @@ namespace damslip::pages {
 
 namespace {
 
-/// A row of the table: its place in the grid and what was found there.
-struct SweepLine {
-    const Grid& grid;
-    std::size_t id;
-    GridIndex at;
-    const RowResults& results;
-    std::optional<double> mean; ///< slip of both polarities [m]
-
-    const Axes& axes() const { return grid.axes; }
-    double yield() const { return results.yield ? *results.yield : grid.yield(at); }
-};
-
 /// What the numbers of a row do not say by themselves.
 Cell remark(const SweepLine& l)
 {
-    const bool fe = l.axes().method[l.at.method].kind == SweepKind::finite_elements;
-    return fe && l.results.slip && !l.results.slip_error ? Cell(no_error_estimate) : Cell();
+    return l.error_known() ? Cell() : Cell(no_error_estimate);
 }
 
 /// Empty of methods that know no rock.
@@ -163,7 +150,7 @@ std::vector<Column> headings(const std::vector<ColumnOf<SweepLine>>& columns)
 } // namespace
 
 void for_each_sweep_row(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome, bool mean,
-                        const TakeRow& take)
+                        const TakeLine& take)
 {
     static const RowResults unreached = not_run();
     const std::vector<ColumnOf<SweepLine>> list = columns(grid, mean);
@@ -173,10 +160,10 @@ void for_each_sweep_row(const Grid& grid, const std::vector<std::size_t>& ids, c
         while (next != outcome.rows.end() && next->id < id) ++next;
         const FinishedRow* row = next != outcome.rows.end() && next->id == id ? &*next : nullptr;
         const GridIndex at = grid.tasks.index(id);
-        const SweepLine line{grid, id, at, row ? row->results : unreached,
+        const SweepLine line{grid, id, at, row ? row->results : unreached, row,
                              mean ? mean_of_polarities(grid, at, outcome) : std::nullopt};
         for (std::size_t j = 0; j < list.size(); ++j) cells[j] = list[j].value(line);
-        take(cells, row);
+        take(line, cells);
     }
 }
 
@@ -185,7 +172,7 @@ Table sweep_table(const Grid& grid, const std::vector<std::size_t>& ids, const S
     Table table{"", sweep_columns(grid, mean), {}, {}};
     table.rows.reserve(ids.size());
     for_each_sweep_row(grid, ids, outcome, mean,
-                       [&](const std::vector<Cell>& cells, const FinishedRow*) { table.rows.push_back(cells); });
+                       [&](const SweepLine&, const std::vector<Cell>& cells) { table.rows.push_back(cells); });
     return table;
 }
 
