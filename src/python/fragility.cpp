@@ -23,11 +23,11 @@ struct FragilityResult final : Result {
     std::optional<ConditionedPlan> conditioned; ///< friction is not drawn for each run
     FragilityPlan plan;
     FragilityRuns runs;
-    FragilityAnswer answer;
+    FragilityAnswer estimated;
     std::vector<FragilitySample> samples; ///< of the plan, for arrays to lie on
     std::vector<double> slip, max_slip;   ///< of each run [m]; NaN: none
 
-    pages::FragilityView view() const { return pages::view_of(*study, plan, runs, answer); }
+    pages::FragilityView view() const { return pages::view_of(*study, plan, runs, estimated); }
 
     pages::Answer answer() const override
     {
@@ -63,7 +63,7 @@ void compute(const OpenedScene& opened, const Asked& asked, Watch& watch, Fragil
     for (const FragilitySample& sample : result.plan.samples) result.samples.push_back(sample);
     result.runs = run_fragility(result.plan, study.text, study.method, wanted_samples(result.plan), nullptr,
                                 asked.extras.jobs, watch);
-    result.answer = answer_fragility(study, result.plan, result.runs, asked.extras, watch, by_friction);
+    result.estimated = answer_fragility(study, result.plan, result.runs, asked.extras, watch, by_friction);
     const auto number = [](const std::optional<double>& value) { return value.value_or(std::nan("")); };
     for (std::size_t id = 0; id < result.runs.rows.size(); ++id) {
         const std::optional<FinishedRow> row = result.runs.rows[id];
@@ -179,7 +179,7 @@ void add_fragility(py::module_& module)
         .def_property_readonly("curves",
                                [](const std::shared_ptr<FragilityResult>& r) {
                                    std::vector<FragilityCurve> curves;
-                                   for (const LimitEstimate& limit : r->answer.estimate.limits)
+                                   for (const LimitEstimate& limit : r->estimated.estimate.limits)
                                        curves.push_back({r, &limit});
                                    return curves;
                                })
@@ -189,8 +189,8 @@ void add_fragility(py::module_& module)
         .def_property_readonly("method", [](const FragilityResult& r) { return r.study->method.id; })
         .def_property_readonly("measure", [](const FragilityResult& r) { return r.study->input.intensity.text; })
         .def_property_readonly("share_not_standing",
-                               [](const FragilityResult& r) { return r.answer.estimate.p_static; })
-        .def_property_readonly("warnings", [](const FragilityResult& r) { return r.answer.notes; })
+                               [](const FragilityResult& r) { return r.estimated.estimate.p_static; })
+        .def_property_readonly("warnings", [](const FragilityResult& r) { return r.estimated.notes; })
         .def_property_readonly("records",
                                [](const FragilityResult& r) {
                                    std::vector<std::string> names;
