@@ -87,4 +87,17 @@ Polyline seam_path(const Scene& scene, const Seam& seam)
     return {a, at(end.x)};
 }
 
+const Contact& base_strength(const Scene& scene)
+{
+    return scene.seam_body ? scene.seam_body->strengths.front() : scene.contact;
+}
+
+std::vector<LiftJoint> joints_of(const Scene& scene)
+{
+    std::vector<LiftJoint> joints = scene.lift_joints;
+    if (scene.seam_body)
+        joints.insert(joints.end(), scene.seam_body->interfaces.begin(), scene.seam_body->interfaces.end());
+    return joints;
+}
+
 } // namespace damslip

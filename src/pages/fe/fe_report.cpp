@@ -12,6 +12,7 @@
 #include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
 #include "scene/write.hpp"
+#include "scene/planes.hpp"
 #include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <algorithm>
@@ -194,7 +195,7 @@ std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& sce
                       worst.rigid ? millimetres(worst.rigid->status, worst.rigid->max_slip) : "slides statically");
     if (scene.criteria.allowable_slip)
         list.emplace_back("Allowable slip", fmt::format("{:.4g} mm", *scene.criteria.allowable_slip / mm));
-    list.emplace_back("Friction μ", fmt::format("{:.4g}", scene.contact.friction));
+    list.emplace_back("Friction μ", fmt::format("{:.4g}", base_strength(scene).friction));
     if (!worst.fe.stages.empty())
         list.emplace_back("Needs statically μ ≥", fmt::format("{:.4g}", worst.fe.stages.back().critical_friction));
     double open = 0.0;
@@ -298,7 +299,7 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::
                  Fold::open};
     if (Table events = contact_event_table(runs); !events.rows.empty())
         slip.parts.push_back(rows_part(std::move(events)));
-    if (!in_.scene.lift_joints.empty()) slip.parts.push_back(rows_part(contact_lift_table(runs, allowable)));
+    if (!joints_of(in_.scene).empty()) slip.parts.push_back(rows_part(contact_lift_table(runs, allowable)));
     if (!in_.scene.anchors.empty()) slip.parts.push_back(rows_part(contact_anchor_table(runs)));
     if (Table water = base_water_table(in_.scene, runs); !water.rows.empty())
         slip.parts.push_back(rows_part(std::move(water)));
@@ -424,7 +425,7 @@ std::vector<std::string> contact_messages(const Scene& scene, const std::vector<
 std::vector<std::string> bond_messages(const Scene& scene, const fe2d::Mesh& mesh)
 {
     std::vector<std::string> messages;
-    for (std::size_t k = scene.mesh.file ? 0 : 1; k <= mesh.lifts.size(); ++k) {
+    for (std::size_t k = scene.mesh.file ? 0 : 1; k <= scene.lift_joints.size(); ++k) { // interfaces on a seam have no bond
         const bool base = k == 0;
         const LiftJoint* lift = base ? nullptr : &scene.lift_joints[k - 1];
         const Contact& strength = base ? scene.contact : lift->strength;
@@ -465,7 +466,7 @@ void add_points(const Scene& scene, const std::vector<ContactRun>& runs, Answer&
         governs += fmt::format("; {:.3g} m of the base open at most", *std::max_element(open.begin(), open.end()));
     if (!worst.fe.stages.empty())
         governs += fmt::format("; without earthquake it needs a friction of {:.3g}, given {:.3g}",
-                               worst.fe.stages.back().critical_friction, scene.contact.friction);
+                               worst.fe.stages.back().critical_friction, base_strength(scene).friction);
     if (const ContactRun* most = most_tensioned(runs)) governs += "; concrete " + crack_words(*most);
     answer.point("governs", governs);
     constexpr double wide = 0.1; // of the slip
@@ -483,7 +484,7 @@ FeAnswer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>
     const Table stages = contact_stage_table(runs), table = contact_run_table(runs, allowable),
                 slips = contact_slip_table(runs), run_out = run_out_table(runs),
                 lifts = contact_lift_table(runs, allowable), law = contact_law_table(runs);
-    const bool has_lifts = !in.scene.lift_joints.empty(), gives_way = with_exact_contact(in.scene).has_value();
+    const bool has_lifts = !joints_of(in.scene).empty(), gives_way = with_exact_contact(in.scene).has_value();
     const Headline headline = fe_headline(in.scene, runs, in.combinations);
 
     FeAnswer answer = begin_fe_answer(FeKind::contact, contact_frame(in));
