@@ -263,8 +263,6 @@ TEST(FeSeam, SaysWhatFiniteElementsDoNotFollow)
         } catch (const InputError& error) {
             const Diagnostic& d = error.diagnostics().front();
             return d.problem + " | " + d.expected + " | " + d.fix;
-        } catch (const UsageError& error) {
-            return error.diagnostic().problem + " | " + error.diagnostic().expected + " | " + error.diagnostic().fix;
         }
         return {};
     };
