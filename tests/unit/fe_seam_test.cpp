@@ -183,6 +183,7 @@ TEST(FeSeam, StrengthReductionFindsTheFactorAndTheForcesOfTheChain)
 Scene stiff_seam(double dip)
 {
     Scene scene = elastic_seam(1e4);
+    scene.time.slip_tolerance = 0.003;
     scene.seams[0].dip = dip;
     return scene;
 }
@@ -202,9 +203,9 @@ GroundMotion flipped(GroundMotion motion)
 
 TEST(FeSeam, StiffUndampedBodiesSlideAsTheChainWithinTheStepsError)
 {
-    const GroundMotion motion = sines(1.5, 8.0);
+    const GroundMotion motion = sines(2.0, 8.0);
     for (const bool wedge : {true, false})
-        for (const double dip : {0.0, -3.0 * deg}) {
+        for (const double dip : {0.0, 2.0 * deg, -2.0 * deg}) {
             Scene scene = stiff_seam(dip);
             if (!wedge) scene = free_faced(scene);
             const Ready ready = ready_of(scene);
@@ -218,6 +219,7 @@ TEST(FeSeam, StiffUndampedBodiesSlideAsTheChainWithinTheStepsError)
                 const RunResult run = model.run(m);
                 ASSERT_EQ(run.status, Status::at_rest) << run.message;
                 EXPECT_NEAR(run.max_slip, chain, run.slip_error + 1e-3 * chain);
+                printf("%d %g: fe %.6f chain %.6f err %.6f e %.1e dt %g\n", wedge, dip/deg, 1e3*run.max_slip, 1e3*chain, 1e3*run.slip_error, run.energy_error, run.dt);
                 EXPECT_LT(run.energy_error, 1e-9);
                 EXPECT_EQ(run.counts.unresolved, 0);
                 if (!wedge) continue;
