@@ -210,8 +210,13 @@ Eigen::VectorXd lift_water_load(const Mesh& mesh, const DofMap& dofs, std::size_
 {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(dofs.count);
     const LiftPlane& lift = mesh.lifts.at(joint);
-    add_profile(sum, dofs, lift.upper_nodes, lift.distance, profile, {0.0, 1.0});
-    add_profile(sum, dofs, lift.lower_nodes, lift.distance, profile, {0.0, -1.0});
+    Eigen::Vector2d normal(0.0, 1.0);
+    if (mesh.seam && joint == 0) { // the base of the dam
+        const Point a = mesh.nodes[lift.lower_nodes.front()], b = mesh.nodes[lift.lower_nodes.back()];
+        normal = Eigen::Vector2d(a.y - b.y, b.x - a.x) / lift.distance.back();
+    }
+    add_profile(sum, dofs, lift.upper_nodes, lift.distance, profile, normal);
+    add_profile(sum, dofs, lift.lower_nodes, lift.distance, profile, -normal);
     return sum;
 }
 

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace damslip::fe2d {
 
@@ -20,7 +21,7 @@ constexpr double least_rows = 3.0;  ///< over an interface
 struct Column {
     double x = 0.0, top = 0.0, bottom = 0.0;
     int rows = 0; ///< of elements; 0 where path and ground meet
-    int dam = -1; ///< the dam's node on top; -1: none
+    int dam = -1; ///< the dam's node above; -1: none
 };
 
 /// Level of a path at x [m].
@@ -110,25 +111,21 @@ public:
     Block(Mesh& mesh, const std::vector<Column>& columns) : mesh_(mesh), columns_(columns) {}
 
     /// @param from, to  columns of one segment of the path @returns nodes of each from the ground down
-    std::vector<std::vector<int>> append(std::size_t from, std::size_t to, bool own_first)
+    std::vector<std::vector<int>> append(std::size_t from, std::size_t to)
     {
         std::vector<std::vector<int>> nodes;
         for (std::size_t c = from; c <= to; ++c) {
-            nodes.push_back(column(columns_[c], c > from || !own_first));
+            nodes.push_back(column(columns_[c]));
             if (c > from) join(nodes[nodes.size() - 2], nodes.back());
         }
         return nodes;
     }
 
 private:
-    std::vector<int> column(const Column& c, bool under_dam)
+    std::vector<int> column(const Column& c)
     {
         std::vector<int> nodes;
         for (int j = 0; j <= c.rows; ++j) {
-            if (j == 0 && c.dam >= 0 && under_dam) {
-                nodes.push_back(c.dam);
-                continue;
-            }
             nodes.push_back(mesh_.node_count());
             mesh_.nodes.push_back({c.x, c.rows == 0 ? c.top : c.top + (c.bottom - c.top) * j / c.rows});
         }
@@ -316,6 +313,19 @@ NodeChain reversed(const NodeChain& chain)
     return {chain.rbegin(), chain.rend()};
 }
 
+/// The dam's base, a joint on the rock that moves with it.
+void add_base(Mesh& mesh, const std::vector<Column>& columns, const std::vector<std::vector<int>>& body,
+              const std::vector<double>& distance)
+{
+    LiftPlane plane{.lower_nodes = {}, .upper_nodes = mesh.seam->base, .distance = distance};
+    for (std::size_t i = 0; i < body.size(); ++i)
+        if (columns[i].dam >= 0) {
+            plane.lower_nodes.push_back(body[i].front());
+            mesh.nodes[static_cast<std::size_t>(body[i].front())] = mesh.nodes[static_cast<std::size_t>(columns[i].dam)];
+        }
+    mesh.lifts.insert(mesh.lifts.begin(), std::move(plane));
+}
+
 /// Nodes on both sides of a bend, from the ground down.
 void add_interface(Mesh& mesh, const std::vector<int>& upstream, const std::vector<int>& downstream)
 {
@@ -339,16 +349,20 @@ void append_rock_with_seam(Mesh& mesh, const Scene& scene, const MeshSizes& size
     const Polyline& path = scene.seam_body->path;
     const PathColumns places(mesh, scene, sizes.contact);
     const std::vector<Column>& columns = places.all();
+    if (const auto bare = std::find_if(columns.begin(), columns.end(), [](const Column& c) { return c.dam >= 0 && c.rows == 0; });
+        bare != columns.end())
+        refuse(scene.file, fmt::format("seam \"{}\" meets the base at x = {:.6g} m.", scene.seam_body->name, bare->x),
+               "rock between seam and base from heel to toe: both are joints of the model", "start the seam lower, or upstream of the heel");
     mesh.seam.emplace();
-    mesh.seam->base = mesh.contact.dam_nodes;
-    mesh.contact.dam_nodes.clear();
-    mesh.contact.distance.clear();
+    const std::vector<double> along_base = std::exchange(mesh.contact.distance, {});
+    mesh.seam->base = std::exchange(mesh.contact.dam_nodes, {});
 
     // 1. The rock above the path, a body for each segment.
     Block block(mesh, columns);
     std::vector<std::vector<std::vector<int>>> bodies;
     for (std::size_t i = 0; i + 1 < path.size(); ++i)
-        bodies.push_back(block.append(places.at(path[i].x), places.at(path[i + 1].x), i > 0));
+        bodies.push_back(block.append(places.at(path[i].x), places.at(path[i + 1].x)));
+    add_base(mesh, columns, bodies.front(), along_base);
     mesh.dam_node_count = mesh.node_count();
     mesh.dam_element_count = mesh.element_count();
 
@@ -382,8 +396,9 @@ void append_rock_with_seam(Mesh& mesh, const Scene& scene, const MeshSizes& size
     NodeChain top;
     for (const auto& body : bodies)
         for (const std::vector<int>& column : body) top.push_back(column.front());
-    const auto heel = std::find(top.begin(), top.end(), mesh.seam->base.front()),
-               toe = std::find(top.begin(), top.end(), mesh.seam->base.back());
+    const std::vector<int>& under_dam = mesh.lifts.front().lower_nodes;
+    const auto heel = std::find(top.begin(), top.end(), under_dam.front()),
+               toe = std::find(top.begin(), top.end(), under_dam.back());
     mesh.floor.insert(mesh.floor.begin(), std::make_reverse_iterator(heel + 1), top.rend());
     mesh.ground.insert(mesh.ground.end(), top.rbegin(), std::make_reverse_iterator(toe));
 }

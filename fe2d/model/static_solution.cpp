@@ -196,11 +196,12 @@ void add_face_water(const Scene& scene, const Model& model, const SeamLine::Face
 
 Eigen::VectorXd lift_water(const Scene& scene, const Model& model)
 {
-    assert(joints_of(scene).size() == model.mesh.lifts.size());
+    const std::vector<LiftJoint> joints = joints_of(scene);
+    assert(joints.size() == model.mesh.lifts.size());
     Eigen::VectorXd sum;
-    for (std::size_t i = 0; i < scene.lift_joints.size(); ++i) {
+    for (std::size_t i = 0; i < joints.size(); ++i) {
         const double length = model.mesh.lifts[i].distance.back();
-        const PressureProfile profile = lift_water_profile(scene, scene.lift_joints[i], length);
+        const PressureProfile profile = lift_water_profile(scene, joints[i], length);
         if (profile.empty()) continue;
         if (sum.size() == 0) sum = Eigen::VectorXd::Zero(model.dofs.count);
         sum += lift_water_load(model.mesh, model.dofs, i, profile);

@@ -38,6 +38,14 @@ std::vector<char> connected(const Mesh& mesh, const std::vector<int>& start)
     return reached;
 }
 
+/// Directions of an inclined base.
+void turn(const Mesh& mesh, const std::vector<int>& nodes, Plane& plane)
+{
+    const Point a = mesh.nodes[nodes.front()], b = mesh.nodes[nodes.back()];
+    plane.tangent = Eigen::Vector2d(b.x - a.x, b.y - a.y).normalized();
+    plane.normal = {-plane.tangent[1], plane.tangent[0]};
+}
+
 } // namespace
 
 ContactPlanes::ContactPlanes(const Mesh& mesh, BelowBase below)
@@ -51,6 +59,7 @@ ContactPlanes::ContactPlanes(const Mesh& mesh, BelowBase below)
     }
     for (const LiftPlane& lift : mesh.lifts) {
         planes_.push_back(plane_of(lift));
+        if (mesh.seam && planes_.size() == 2) turn(mesh, lift.lower_nodes, planes_.back()); // the base of the dam
         nodes_.insert(nodes_.end(), lift.upper_nodes.begin(), lift.upper_nodes.end());
         nodes_.insert(nodes_.end(), lift.lower_nodes.begin(), lift.lower_nodes.end());
     }

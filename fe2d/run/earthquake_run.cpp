@@ -95,9 +95,9 @@ void check_scheme(const Scene& scene)
 
 EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options) : scene_(scene), options_(std::move(options))
 {
-    if (scene_.seam_body) { // displacements count from the rock as it lies before the dam
+    if (scene_.seam_body) {
         scene_.contact = Contact(base_strength(scene_));
-        scene_.stages.geostatic = true;
+        scene_.stages.geostatic = true; // zero_displacement()
     }
     check_scheme(scene_);
     check_friction_over_rate(scene_);
@@ -455,6 +455,11 @@ VectorXd EarthquakeRun::zero_displacement(StaticContact& statics, const Strength
 {
     if (!scene_.stages.geostatic) return {};
     ContactMemory memory(structure_->pairs());
+    if (scene_.seam_body) { // from the rock as it lies before the dam, where nothing has parted
+        const VectorXd weight = sum_of(static_loads(scene_, *model_).rock, model_->dofs.count);
+        const StaticState state = statics.displacements(structure_->split(weight), memory);
+        return structure_->assemble(state.dam, state.rock, weight);
+    }
     Strength trial = strength;
     const SplitLoad load = split(0);
     if (solve_stage(statics, *structure_, stages_.names[0], load, trial, memory).status != StageStatus::ok) return {};

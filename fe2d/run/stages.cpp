@@ -41,13 +41,8 @@ LoadStages load_stages(const Scene& scene, const Model& model, const PressurePro
 {
     const StaticLoads loads = static_loads(scene, model);
     LoadStages stages;
-    VectorXd sum = VectorXd::Zero(model.dofs.count);
-    if (!loads.rock.empty()) {
-        sum += sum_of(loads.rock, model.dofs.count);
-        stages.names.push_back("rock weight");
-        stages.loads.push_back(sum);
-    }
-    sum += sum_of(loads.gravity, model.dofs.count);
+    VectorXd sum = sum_of(loads.gravity, model.dofs.count);
+    if (!loads.rock.empty()) sum += sum_of(loads.rock, model.dofs.count); // zero_displacement() of the run takes it off
     stages.names.push_back("gravity");
     stages.loads.push_back(sum);
     if (std::any_of(scene.anchors.begin(), scene.anchors.end(), [](const Anchor& a) { return a.prestress > 0.0; })) {
@@ -111,10 +106,12 @@ std::string plane_name(const ContactStructure& structure, Index index)
     const Mesh& mesh = structure.model().mesh;
     if (index == 0) return mesh.seam ? "seam" : "base";
     const LiftPlane& lift = mesh.lifts[static_cast<std::size_t>(index - 1)];
+    if (mesh.seam && index == 1) return "base";
     if (lift.upright)
         return fmt::format("interface at {:.6g} m", mesh.nodes[static_cast<std::size_t>(lift.upper_nodes.front())].x);
     const int node = mesh.lifts[static_cast<std::size_t>(index - 1)].upper_nodes.front();
-    return fmt::format("lift joint at {:.6g} m", mesh.nodes[node].y - mesh.nodes[mesh.contact.dam_nodes.front()].y);
+    const int heel = mesh.seam ? mesh.seam->base.front() : mesh.contact.dam_nodes.front();
+    return fmt::format("lift joint at {:.6g} m", mesh.nodes[node].y - mesh.nodes[heel].y);
 }
 
 /// All strength of a plane's bond at once; nothing where its bond takes no work to break.

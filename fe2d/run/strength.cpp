@@ -243,15 +243,16 @@ std::unique_ptr<AnchorLaw> anchors_on(const Scene& scene, const ContactPlanes& p
 {
     if (scene.anchors.empty()) return nullptr;
     std::vector<PlacedAnchor> all;
+    const std::vector<LiftJoint> joints = joints_of(scene);
     for (const Anchor& anchor : scene.anchors) {
         Eigen::Index index = 0;
         if (!anchor.joint.empty()) {
-            const auto joint = std::find_if(scene.lift_joints.begin(), scene.lift_joints.end(),
-                                            [&](const LiftJoint& j) { return j.name == anchor.joint; });
-            index = 1 + (joint - scene.lift_joints.begin());
+            const auto joint =
+                std::find_if(joints.begin(), joints.end(), [&](const LiftJoint& j) { return j.name == anchor.joint; });
+            index = 1 + (joint - joints.begin());
         }
         const Contact& contact =
-            index == 0 ? scene.contact : scene.lift_joints[static_cast<std::size_t>(index - 1)].strength;
+            index == 0 ? scene.contact : joints[static_cast<std::size_t>(index - 1)].strength;
         const Plane& plane = planes[index];
         const double at = plane.distance[0] + anchor.distance;
         Eigen::Index i = 0;

@@ -118,7 +118,7 @@ std::vector<EffectRow> plane_effects()
          .decide =
              [](const Scene& s, Method m) {
                  if (s.seam_body)
-                     return Decision{true, fmt::format("slides on \"{}\", the base is tied", s.seam_body->name),
+                     return Decision{true, fmt::format("slides on \"{}\" and on the base", s.seam_body->name),
                                      "the rock above it, two unknowns a pair along its path"};
                  return of_planes(m, has_seams(s), fmt::format("{} [[seam]]", s.seams.size()), "no [[seam]]",
                                   "one chain of rigid blocks for each");

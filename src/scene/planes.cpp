@@ -95,8 +95,10 @@ const Contact& base_strength(const Scene& scene)
 std::vector<LiftJoint> joints_of(const Scene& scene)
 {
     std::vector<LiftJoint> joints = scene.lift_joints;
-    if (scene.seam_body)
-        joints.insert(joints.end(), scene.seam_body->interfaces.begin(), scene.seam_body->interfaces.end());
+    if (!scene.seam_body) return joints;
+    const std::vector<LiftJoint>& own = scene.seam_body->interfaces; // the first is the base
+    joints.insert(joints.end(), own.begin() + 1, own.end());
+    joints.insert(joints.begin(), own.front());
     return joints;
 }
 

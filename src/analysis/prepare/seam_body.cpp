@@ -8,6 +8,7 @@
 #include "scene/section.hpp"
 #include "scene/water.hpp"
 #include "sliding/planes/seam.hpp"
+#include "sliding/uplift/uplift.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -53,6 +54,9 @@ const Obstacle obstacles[] = {
      "take the anchor out, or run the base (without --plane)"},
     {[](const Scene& s, const Seam&) { return s.uplift && s.uplift->water.follows(); }, "uplift.opening follows the joint",
      "water along the seam that stays as it is", "delete  opening  from [uplift]"},
+    {[](const Scene& s, const Seam&) { return s.uplift && s.uplift->model == UpliftModel::seepage; },
+     "uplift.model = \"seepage\"", "uplift by a profile: what flows in rock with a seam is not known",
+     "write  model = \"linear\"  or another in [uplift]"},
     {[](const Scene& s, const Seam& seam) {
          return seam.uplift == UpliftModel::drains && s.drains && s.drains->lost_at_slip.has_value();
      },
@@ -151,6 +155,12 @@ SeamBody body_of(const Scene& scene, const Seam& seam, std::optional<double> ang
         body.strengths.push_back(i < of_seam ? strength_of(scene.contact, seam.strength)
                                              : strength_of(scene.contact, seam.wedge->friction, seam.wedge->cohesion));
     for (const ProfilePoint& p : model.pressure.points) body.water.push_back({p.distance, p.pressure});
+    LiftJoint& base = body.interfaces.emplace_back();
+    base.name = "base";
+    base.strength = scene.contact;
+    if (scene.uplift)
+        for (const ProfilePoint& p : sliding::uplift_profile(scene, scene_uplift_state(scene)).points)
+            base.pressures.push_back({p.distance, p.pressure});
     const bool rubs = seam.interface.model == InterfaceModel::friction;
     for (std::size_t i = 1; i + 1 < body.path.size(); ++i) {
         LiftJoint face;

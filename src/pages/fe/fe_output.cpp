@@ -217,7 +217,7 @@ private:
         for (std::size_t k = 0; k < mesh().lifts.size(); ++k) {
             const std::vector<double>& distances = mesh().lifts[k].distance;
             const LiftJoint joint = joints_of(of_.scene)[k];
-            add(distances, joint.water == JointWater::none
+            add(distances, joint.water == JointWater::none && joint.pressures.empty()
                                ? PressureProfile{}
                                : fe2d::lift_water_profile(of_.scene, joint, distances.back()));
         }

@@ -425,9 +425,10 @@ std::vector<std::string> contact_messages(const Scene& scene, const std::vector<
 std::vector<std::string> bond_messages(const Scene& scene, const fe2d::Mesh& mesh)
 {
     std::vector<std::string> messages;
-    for (std::size_t k = scene.mesh.file ? 0 : 1; k <= scene.lift_joints.size(); ++k) { // interfaces on a seam have no bond
+    const std::vector<LiftJoint> joints = joints_of(scene);
+    for (std::size_t k = scene.mesh.file ? 0 : 1; k <= mesh.lifts.size(); ++k) {
         const bool base = k == 0;
-        const LiftJoint* lift = base ? nullptr : &scene.lift_joints[k - 1];
+        const LiftJoint* lift = base ? nullptr : &joints[k - 1];
         const Contact& strength = base ? scene.contact : lift->strength;
         const fe2d::NodeChain& nodes = base ? mesh.contact.dam_nodes : mesh.lifts[k - 1].upper_nodes;
         const auto modulus = joint_modulus(scene, base);
