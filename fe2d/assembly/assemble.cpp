@@ -64,7 +64,12 @@ Eigen::VectorXd assemble_vector(const Mesh& mesh, const DofMap& dofs, const Elem
 const ElasticMaterial& Materials::of(Region region) const
 {
     assert(region != Region::reservoir);
-    return region == Region::dam ? dam : region == Region::rock ? rock : curtain;
+    switch (region) {
+    case Region::dam: return dam;
+    case Region::rock: return rock;
+    case Region::block: return block;
+    default: return curtain;
+    }
 }
 
 Materials materials_of(const Scene& scene)
@@ -74,7 +79,7 @@ Materials materials_of(const Scene& scene)
     materials.dam = elastic_material(scene.dam, scene, "dam");
     if (!scene.foundation) return materials;
     materials.rock = elastic_material(scene.foundation->material, scene, "foundation");
-    materials.curtain = materials.rock;
+    materials.curtain = materials.block = materials.rock;
     if (scene.curtain && scene.curtain->young_modulus) {
         materials.curtain.young_modulus = *scene.curtain->young_modulus;
         materials.curtain.poisson_ratio = scene.curtain->poisson_ratio;
@@ -92,7 +97,7 @@ Materials without_rock_density(Materials materials)
 SparseMatrix stiffness_matrix(const Mesh& mesh, const DofMap& dofs, const Materials& materials)
 {
     std::array<Eigen::Matrix3d, region_count> d;
-    for (const Region region : {Region::dam, Region::rock, Region::curtain})
+    for (const Region region : {Region::dam, Region::rock, Region::curtain, Region::block})
         d[static_cast<int>(region)] = plane_strain_matrix(materials.of(region));
     return assemble(mesh, dofs, [&](const Element& element, const Corners& corners) {
         return elastic_stiffness(corners, element.size(), d[static_cast<int>(element.region)], materials.kind,
@@ -176,7 +181,18 @@ DofMap displacement_dofs(const Mesh& mesh, Base base, RockEdges edges)
     if (base == Base::tied)
         for (const LiftPlane& lift : mesh.lifts)
             for (const int component : {0, 1}) fix(lift.upper_nodes, component); // replaced below as well
+    if (base == Base::tied && mesh.seam)
+        for (const auto& [upstream, downstream, rock] : mesh.seam->bends)
+            for (const int component : {0, 1}) fix({downstream, rock}, component);
     number(map);
+    const auto share = [&map](int node, int with) {
+        for (const int component : {0, 1}) map.dofs[2 * node + component] = map.dofs[2 * with + component];
+    };
+    if (base == Base::tied && mesh.seam)
+        for (const auto& [upstream, downstream, rock] : mesh.seam->bends) {
+            share(downstream, upstream);
+            share(rock, upstream);
+        }
     if (base == Base::tied && mesh.has_rock())
         for (std::size_t i = 0; i < plane.dam_nodes.size(); ++i)
             for (const int component : {0, 1})

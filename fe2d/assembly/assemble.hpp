@@ -75,6 +75,7 @@ Eigen::VectorXd assemble_vector(const Mesh& mesh, const DofMap& dofs, const Elem
 /// Material of each region, and how the quadrilaterals are formulated.
 struct Materials {
     ElasticMaterial dam, rock, curtain;
+    ElasticMaterial block; ///< the rock above a seam
     Q4Kind kind = Q4Kind::incompatible; ///< of linear quadrilaterals; whether an element is quadratic, its nodes say
 
     const ElasticMaterial& of(Region region) const;
@@ -84,7 +85,7 @@ struct Materials {
 /// @throws InputError where Young's modulus is missing.
 Materials materials_of(const Scene& scene);
 
-/// The same without inertia or weight of rock and curtain.
+/// The same without inertia or weight of rock and curtain; rock above a seam keeps its own.
 Materials without_rock_density(Materials materials);
 
 SparseMatrix stiffness_matrix(const Mesh& mesh, const DofMap& dofs, const Materials& materials); ///< K [N/m per m]

@@ -182,11 +182,25 @@ Eigen::VectorXd uplift_load(const Mesh& mesh, const DofMap& dofs, const Pressure
 {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(dofs.count);
     const ContactPlane& plane = mesh.contact;
-    const std::vector<int>& nodes = side == ContactSide::dam ? plane.dam_nodes : plane.rock_nodes;
+    const bool on_dam = side == ContactSide::dam;
+    const std::vector<int>& nodes = mesh.seam ? (on_dam ? mesh.seam->body : mesh.seam->rock)
+                                              : (on_dam ? plane.dam_nodes : plane.rock_nodes);
     if (nodes.empty()) return sum;
-    const std::vector<double>& distance = side == ContactSide::dam ? plane.distance : plane.rock_node_distance;
+    const std::vector<double>& distance = mesh.seam ? (on_dam ? mesh.seam->body_distance : mesh.seam->rock_distance)
+                                                    : (on_dam ? plane.distance : plane.rock_node_distance);
+    const double sign = on_dam ? 1.0 : -1.0;
+    if (mesh.seam) {
+        for (std::size_t e = 0; e + 1 < nodes.size(); ++e) {
+            const Point a = mesh.nodes[nodes[e]], b = mesh.nodes[nodes[e + 1]];
+            const double length = distance[e + 1] - distance[e];
+            if (!(length > 0.0)) continue; // both nodes of a bend
+            add_profile(sum, dofs, {nodes[e], nodes[e + 1]}, {distance[e], distance[e + 1]}, profile,
+                        sign / length * Eigen::Vector2d(a.y - b.y, b.x - a.x));
+        }
+        return sum;
+    }
     const Point first = mesh.nodes[nodes.front()], last = mesh.nodes[nodes.back()];
-    const double length = plane.distance.back(), sign = side == ContactSide::dam ? 1.0 : -1.0;
+    const double length = plane.distance.back();
     const Eigen::Vector2d up = sign / length * Eigen::Vector2d(first.y - last.y, last.x - first.x);
     add_profile(sum, dofs, nodes, distance, profile, up);
     return sum;
@@ -196,8 +210,13 @@ Eigen::VectorXd lift_water_load(const Mesh& mesh, const DofMap& dofs, std::size_
 {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(dofs.count);
     const LiftPlane& lift = mesh.lifts.at(joint);
-    add_profile(sum, dofs, lift.upper_nodes, lift.distance, profile, {0.0, 1.0});
-    add_profile(sum, dofs, lift.lower_nodes, lift.distance, profile, {0.0, -1.0});
+    Eigen::Vector2d normal(0.0, 1.0);
+    if (mesh.seam && joint == 0) { // the base of the dam
+        const Point a = mesh.nodes[lift.lower_nodes.front()], b = mesh.nodes[lift.lower_nodes.back()];
+        normal = Eigen::Vector2d(a.y - b.y, b.x - a.x) / lift.distance.back();
+    }
+    add_profile(sum, dofs, lift.upper_nodes, lift.distance, profile, normal);
+    add_profile(sum, dofs, lift.lower_nodes, lift.distance, profile, -normal);
     return sum;
 }
 

@@ -201,7 +201,10 @@ Mesh own_mesh(const Scene& scene, const ContactExtension& extension)
     const DamLayout layout = dam_layout(scene, faces, sizes);
     Mesh mesh;
     append_dam(mesh, faces, layout);
-    if (scene.foundation) append_rock(mesh, rock_layout(scene, layout, sizes, extension));
+    if (scene.seam_body)
+        append_rock_with_seam(mesh, scene, sizes);
+    else if (scene.foundation)
+        append_rock(mesh, rock_layout(scene, layout, sizes, extension));
     check_quality(mesh, scene);
     return mesh;
 }
@@ -219,7 +222,7 @@ void shape_elements(Mesh& mesh, ElementKind kind)
 // whose pore pressures this mesh carries.
 bool curtain_is_meshed(const Scene& scene)
 {
-    if (!scene.foundation || !scene.curtain) return false;
+    if (!scene.foundation || !scene.curtain || scene.seam_body) return false;
     return curtain_changes_stiffness(scene) ||
            (scene.stages.pore_pressure != PorePressure::none && curtain_changes_flow(scene));
 }

@@ -108,6 +108,11 @@ struct RockLayout {
 /// box. Fills contact.rock_nodes, rock_line, floor, ground and the sides of the box.
 void append_rock(Mesh& mesh, const RockLayout& layout);
 
+/// Appends to a mesh that holds the dam the rock above the path of scene.seam_body as part of it, then the rock below: upright columns
+/// through the dam's base nodes. Where rock above the path thins out its rows end one after the other in triangles.
+/// @throws InputError where the box does not hold the path
+void append_rock_with_seam(Mesh& mesh, const Scene& scene, const MeshSizes& sizes);
+
 /// The water upstream of the dam as a mesh of its own (one pressure per node): rows at constant height, columns graded away from the
 /// face. Its rows need not meet the dam's: pressure and displacement are coupled by the integral over the face they share.
 struct ReservoirMesh {

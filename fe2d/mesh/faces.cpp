@@ -238,6 +238,8 @@ const char* name_of(Region region)
         return "curtain";
     case Region::reservoir:
         return "reservoir";
+    case Region::block:
+        return "rock above the seam";
     }
     return "";
 }

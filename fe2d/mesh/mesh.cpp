@@ -191,7 +191,7 @@ public:
     void add_surfaces()
     {
         int tags[region_count] = {};
-        const char* names[region_count] = {"dam", "rock", "curtain", ""};
+        const char* names[region_count] = {"dam", "rock", "curtain", "", "block"};
         for (const Element& element : mesh_.elements) {
             const auto region = static_cast<int>(element.region);
             assert(element.region != Region::reservoir);

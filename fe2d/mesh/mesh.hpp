@@ -4,6 +4,7 @@
 #include "fe2d/gmsh/write_gmsh.hpp"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 /// Mesh of one scene: dam and, where the scene has one, the rock below it with the grout curtain.
@@ -14,8 +15,14 @@
 /// contact is said by the degrees of freedom (assembly/dof_map.hpp), not by the mesh.
 namespace damslip::fe2d {
 
-enum class Region : unsigned char { dam, rock, curtain, reservoir };
-inline constexpr int region_count = 4;
+enum class Region : unsigned char {
+    dam,
+    rock,
+    curtain,
+    reservoir,
+    block ///< rock above a seam: it moves with the dam, and has mass
+};
+inline constexpr int region_count = 5;
 
 /// The nodes of one element without a heap: corners, then the middles of its edges that have one, then its centre.
 struct ElementNodes {
@@ -52,7 +59,8 @@ struct EdgeNode {
 /// body is on the left, the outward normal of the edge (a, b) is (y_b - y_a, x_a - x_b) / length.
 using NodeChain = std::vector<int>;
 
-/// The plane between dam and rock, always straight, from the heel to the toe.
+/// The plane between dam and rock, from the heel to the toe, always straight; of a dam on a seam the path of the seam, whose bends
+/// have no pair (Mesh::seam).
 struct ContactPlane {
     std::vector<int> dam_nodes;   ///< on the dam, heel to toe
     std::vector<int> rock_nodes;  ///< on the rock, heel to toe; at the same places if `matching`; empty: rigid base
@@ -65,11 +73,33 @@ struct ContactPlane {
         rock_distance; ///< of rock_line from the heel, along the plane; negative upstream of the heel [m]
 };
 
-/// A horizontal joint through the dam: its nodes exist twice, as those of the base do.
+/// A horizontal joint through the dam: its nodes exist twice, as those of the base do. Or an upright interface between two blocks of
+/// rock on a seam, where "below" is upstream and "above" downstream.
 struct LiftPlane {
-    std::vector<int> lower_nodes; ///< of the dam below, upstream to downstream
+    std::vector<int> lower_nodes; ///< of the dam below, upstream to downstream; of an interface from the ground down
     std::vector<int> upper_nodes; ///< of the block above, at the same places
     std::vector<double> distance; ///< of these nodes from the upstream face, along the joint [m]
+    bool upright = false;         ///< an interface
+    double beyond = 0.0; ///< from the last pair on to the bend of the path, where three bodies meet and no pair is [m]
+};
+
+/// Below a dam on a seam: the path as two lines of nodes from upstream to downstream, and the faces with water in them.
+struct SeamLine {
+    struct Segment {
+        int first = 0, end = 0;        ///< pairs of ContactPlane
+        Point tangent;                 ///< downstream
+        double before = 0.0, beyond = 0.0; ///< lengths next to the ends that belong to a bend, without a pair [m]
+    };
+    struct Face {
+        NodeChain upstream, downstream; ///< of the bodies on either side of it; empty: there is none
+    };
+    std::vector<Segment> segments;
+    std::vector<int> body, rock;                     ///< all nodes; of the bodies each bend twice
+    std::vector<double> body_distance, rock_distance; ///< along the path [m]
+    std::vector<std::array<int, 3>> bends;           ///< upstream and downstream body, rock: at one place
+    Face crack, end;                                 ///< above the first point of the path, and above its last
+    std::vector<Face> interfaces;                    ///< of each bend
+    std::vector<int> base;                           ///< the dam's nodes on the rock that moves with it, heel to toe
 };
 
 struct Mesh {
@@ -79,7 +109,8 @@ struct Mesh {
     int dam_element_count = 0;
 
     ContactPlane contact;
-    std::vector<LiftPlane> lifts;     ///< from the bottom up, in the order of Scene::lift_joints
+    std::optional<SeamLine> seam;     ///< none: the dam on its base
+    std::vector<LiftPlane> lifts;     ///< from the bottom up, then interfaces on a seam: in the order of joints_of()
     std::vector<LiftPlane> tied_lifts; ///< the same of Scene::tied_lifts: both sides have the same nodes
     std::vector<EdgeNode> edge_nodes; ///< of all quadratic edges, by a, then b. Chains and planes below are of corners
     NodeChain upstream_face;       ///< of the dam, crest to heel; at a lift joint through both nodes, upper first: an

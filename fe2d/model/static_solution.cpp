@@ -1,6 +1,7 @@
 #include "fe2d/model/static_solution.hpp"
 
 #include "core/input_error.hpp"
+#include "scene/planes.hpp"
 #include "scene/water.hpp"
 
 #include <algorithm>
@@ -83,7 +84,7 @@ void add_upstream_water(const Scene& scene, const Model& model, StaticLoads& loa
     const double unit_weight = water_unit_weight(scene), level = scene.reservoir->level;
     loads.impounding.push_back(
         water("water on the upstream face", model, model.mesh.upstream_face, level, unit_weight));
-    if (scene.reservoir->floor_pressure && model.mesh.has_rock())
+    if ((scene.reservoir->floor_pressure || scene.seam_body) && model.mesh.has_rock())
         loads.impounding.push_back(water("water on the reservoir floor", model, model.mesh.floor, level, unit_weight));
 }
 
@@ -92,7 +93,7 @@ void add_tailwater(const Scene& scene, const Model& model, StaticLoads& loads)
     const double unit_weight = water_unit_weight(scene), level = scene.tailwater->level;
     loads.impounding.push_back(
         water("tailwater on the downstream face", model, model.mesh.downstream_face, level, unit_weight));
-    if (scene.reservoir && scene.reservoir->floor_pressure && model.mesh.has_rock())
+    if (((scene.reservoir && scene.reservoir->floor_pressure) || scene.seam_body) && model.mesh.has_rock())
         loads.impounding.push_back(water("tailwater on the ground", model, model.mesh.ground, level, unit_weight));
 }
 
@@ -134,8 +135,10 @@ void add_gates(const Scene& scene, const Model& model, StaticLoads& loads)
 StaticLoads static_loads(const Scene& scene, const Model& model)
 {
     StaticLoads loads;
+    if (scene.seam_body)
+        loads.rock.push_back(weight("weight of the rock", scene, model, {Region::rock, Region::block}));
     loads.gravity.push_back(weight("weight of the dam", scene, model, {Region::dam}));
-    if (scene.stages.gravity == GravityStage::dam_and_rock && model.mesh.has_rock())
+    if (!scene.seam_body && scene.stages.gravity == GravityStage::dam_and_rock && model.mesh.has_rock())
         loads.gravity.push_back(weight("weight of the rock", scene, model, {Region::rock, Region::curtain}));
     if (scene.reservoir) add_upstream_water(scene, model, loads);
     if (scene.reservoir && scene.gate) add_gates(scene, model, loads);
@@ -173,17 +176,42 @@ PressureProfile lift_water_profile(const Scene& scene, const LiftJoint& joint, d
     return {{{0.0, unit_weight * upstream}, {length, unit_weight * downstream}}};
 }
 
+namespace {
+
+/// Hydrostatic below a level, on both sides of a face.
+void add_face_water(const Scene& scene, const Model& model, const SeamLine::Face& face, std::optional<double> level,
+                    Eigen::VectorXd& sum)
+{
+    if (!level) return;
+    const double unit_weight = water_unit_weight(scene);
+    for (const NodeChain* chain : {&face.upstream, &face.downstream}) {
+        if (chain->empty()) continue;
+        if (sum.size() == 0) sum = Eigen::VectorXd::Zero(model.dofs.count);
+        sum += pressure_load(
+            model.mesh, model.dofs, *chain, [&](Point p) { return unit_weight * (*level - p.y); }, *level);
+    }
+}
+
+} // namespace
+
 Eigen::VectorXd lift_water(const Scene& scene, const Model& model)
 {
-    assert(scene.lift_joints.size() == model.mesh.lifts.size());
+    const std::vector<LiftJoint> joints = joints_of(scene);
+    assert(joints.size() == model.mesh.lifts.size());
     Eigen::VectorXd sum;
-    for (std::size_t i = 0; i < scene.lift_joints.size(); ++i) {
+    for (std::size_t i = 0; i < joints.size(); ++i) {
         const double length = model.mesh.lifts[i].distance.back();
-        const PressureProfile profile = lift_water_profile(scene, scene.lift_joints[i], length);
+        const PressureProfile profile = lift_water_profile(scene, joints[i], length);
         if (profile.empty()) continue;
         if (sum.size() == 0) sum = Eigen::VectorXd::Zero(model.dofs.count);
         sum += lift_water_load(model.mesh, model.dofs, i, profile);
     }
+    if (!scene.seam_body) return sum;
+    const SeamLine& seam = *model.mesh.seam;
+    add_face_water(scene, model, seam.crack, scene.seam_body->crack_level, sum);
+    add_face_water(scene, model, seam.end, scene.seam_body->end_level, sum);
+    for (std::size_t i = 0; i < seam.interfaces.size(); ++i)
+        add_face_water(scene, model, seam.interfaces[i], scene.seam_body->interface_levels[i], sum);
     return sum;
 }
 

@@ -18,6 +18,7 @@ struct StaticLoad {
 
 /// The scene's static loads by stage; a load the scene does not have is not in the list.
 struct StaticLoads {
+    std::vector<StaticLoad> rock;    ///< weight of all rock, where the dam stands on a seam: before the dam is there
     std::vector<StaticLoad> gravity; ///< weight of the dam, and of the rock where scene.stages asks for it
     std::vector<StaticLoad>
         impounding; ///< water on the upstream face, on the floor where asked for, tailwater, silt, ice, forces
@@ -35,7 +36,8 @@ Eigen::VectorXd sum_of(const std::vector<StaticLoad>& loads, int unknowns);
 /// @param length  of the joint [m]
 PressureProfile lift_water_profile(const Scene& scene, const LiftJoint& joint, double length);
 
-/// The water of all lift joints on both their faces, open or not [N/m]; empty where there is none.
+/// The water of all lift joints on both their faces, open or not, and that in the faces up from the path of a seam [N/m]; empty
+/// where there is none.
 /// @param model  of the same scene
 Eigen::VectorXd lift_water(const Scene& scene, const Model& model);
 

@@ -56,11 +56,17 @@ ReducedRock ReducedRock::scaled(double young_modulus, double density, double len
 ReducedRock ReducedRock::on_plane(const Eigen::Vector2d& normal, const Eigen::Vector2d& tangent) const
 {
     const Index n = base() / 2;
+    return on_path(normal.replicate(1, n), tangent.replicate(1, n));
+}
+
+ReducedRock ReducedRock::on_path(const Eigen::Matrix2Xd& normals, const Eigen::Matrix2Xd& tangents) const
+{
+    const Index n = base() / 2;
     const auto rows = [&](const MatrixXd& m) {
         MatrixXd turned(m.rows(), m.cols());
         for (Index i = 0; i < n; ++i) {
-            turned.row(i) = normal.transpose() * m.middleRows(2 * i, 2);
-            turned.row(n + i) = tangent.transpose() * m.middleRows(2 * i, 2);
+            turned.row(i) = normals.col(i).transpose() * m.middleRows(2 * i, 2);
+            turned.row(n + i) = tangents.col(i).transpose() * m.middleRows(2 * i, 2);
         }
         turned.bottomRows(floor) = m.bottomRows(floor);
         return turned;

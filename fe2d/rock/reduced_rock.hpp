@@ -57,6 +57,8 @@ struct ReducedRock {
     /// With rows in the order of Plane: normal components of all nodes, then tangential ones.
     /// @param normal, tangent  unit vectors
     ReducedRock on_plane(const Eigen::Vector2d& normal, const Eigen::Vector2d& tangent) const;
+    /// The same with axes that change from node to node. @param normals, tangents  unit vectors, a column for each node
+    ReducedRock on_path(const Eigen::Matrix2Xd& normals, const Eigen::Matrix2Xd& tangents) const;
 };
 
 /// One step size of reduced rock; runs may share it. With w = 1 + α, p̃ = w p₁ - α p₀ and the elastic force r of the

@@ -38,6 +38,14 @@ std::vector<char> connected(const Mesh& mesh, const std::vector<int>& start)
     return reached;
 }
 
+/// Directions of an inclined base.
+void turn(const Mesh& mesh, const std::vector<int>& nodes, Plane& plane)
+{
+    const Point a = mesh.nodes[nodes.front()], b = mesh.nodes[nodes.back()];
+    plane.tangent = Eigen::Vector2d(b.x - a.x, b.y - a.y).normalized();
+    plane.normal = {-plane.tangent[1], plane.tangent[0]};
+}
+
 } // namespace
 
 ContactPlanes::ContactPlanes(const Mesh& mesh, BelowBase below)
@@ -51,6 +59,7 @@ ContactPlanes::ContactPlanes(const Mesh& mesh, BelowBase below)
     }
     for (const LiftPlane& lift : mesh.lifts) {
         planes_.push_back(plane_of(lift));
+        if (mesh.seam && planes_.size() == 2) turn(mesh, lift.lower_nodes, planes_.back()); // the base of the dam
         nodes_.insert(nodes_.end(), lift.upper_nodes.begin(), lift.upper_nodes.end());
         nodes_.insert(nodes_.end(), lift.lower_nodes.begin(), lift.lower_nodes.end());
     }
@@ -71,7 +80,8 @@ ContactPlanes::ContactPlanes(const Mesh& mesh, BelowBase below)
         for (Index i = 0; i < pairs; ++i)
             for (const Index c : {0, 1}) {
                 const Index upper = 2 * (node + i) + c, lower = upper + 2 * pairs, normal = first(k) + i;
-                for (const auto& [row, part] : {std::pair{normal, plane.normal[c]}, {m + normal, plane.tangent[c]}}) {
+                for (const auto& [row, part] :
+                     {std::pair{normal, plane.normal_of(i)[c]}, {m + normal, plane.tangent_of(i)[c]}}) {
                     gaps.emplace_back(row, upper, part);
                     if (k >= one_sided) gaps.emplace_back(row, lower, -part);
                     held.emplace_back(upper, row, part);
@@ -91,7 +101,7 @@ ContactPlanes::ContactPlanes(const Mesh& mesh, BelowBase below)
     above_.front().assign(static_cast<std::size_t>(mesh.dam_node_count), 1);
     for (std::size_t k = mesh.lifts.size(); k > 0; --k) { // from top to bottom, each joins those above it
         above_[k] = connected(mesh, mesh.lifts[k - 1].upper_nodes);
-        if (k == mesh.lifts.size()) continue;
+        if (k == mesh.lifts.size() || mesh.lifts[k].upright != mesh.lifts[k - 1].upright) continue;
         for (std::size_t node = 0; node < above_[k].size(); ++node) above_[k][node] |= above_[k + 1][node];
     }
 }
@@ -116,21 +126,37 @@ MatrixXd rows_to_plane(const Plane& plane, const MatrixXd& interface)
     const Index m = interface.rows() / 2;
     MatrixXd result(2 * m, interface.cols());
     for (Index i = 0; i < m; ++i) {
-        result.row(i) = plane.normal.transpose() * interface.middleRows<2>(2 * i);
-        result.row(m + i) = plane.tangent.transpose() * interface.middleRows<2>(2 * i);
+        result.row(i) = plane.normal_of(i).transpose() * interface.middleRows<2>(2 * i);
+        result.row(m + i) = plane.tangent_of(i).transpose() * interface.middleRows<2>(2 * i);
     }
     return result;
 }
 
 } // namespace
 
+VectorXd Plane::weights() const
+{
+    if (segments.size() < 2) return area / length();
+    VectorXd weights = VectorXd::Zero(pairs());
+    weights.head(main_pairs()) = area.head(main_pairs()) / area.head(main_pairs()).sum();
+    return weights;
+}
+
+std::size_t Plane::segment_of(Index pair) const
+{
+    std::size_t segment = 0;
+    while (segment + 1 < segments.size() && segments[segment + 1] <= pair) ++segment;
+    return segment;
+}
+
 VectorXd Plane::to_plane(const VectorXd& interface) const
 {
     const Index m = interface.size() / 2;
     VectorXd result(2 * m);
     for (Index i = 0; i < m; ++i) {
-        result[i] = normal[0] * interface[2 * i] + normal[1] * interface[2 * i + 1];
-        result[m + i] = tangent[0] * interface[2 * i] + tangent[1] * interface[2 * i + 1];
+        const Eigen::Vector2d n = normal_of(i), t = tangent_of(i);
+        result[i] = n[0] * interface[2 * i] + n[1] * interface[2 * i + 1];
+        result[m + i] = t[0] * interface[2 * i] + t[1] * interface[2 * i + 1];
     }
     return result;
 }
@@ -140,8 +166,9 @@ VectorXd Plane::to_interface(const VectorXd& plane) const
     const Index m = plane.size() / 2;
     VectorXd result(2 * m);
     for (Index i = 0; i < m; ++i) {
-        result[2 * i] = normal[0] * plane[i] + tangent[0] * plane[m + i];
-        result[2 * i + 1] = normal[1] * plane[i] + tangent[1] * plane[m + i];
+        const Eigen::Vector2d n = normal_of(i), t = tangent_of(i);
+        result[2 * i] = n[0] * plane[i] + t[0] * plane[m + i];
+        result[2 * i + 1] = n[1] * plane[i] + t[1] * plane[m + i];
     }
     return result;
 }
@@ -170,6 +197,23 @@ VectorXd as_vector(const std::vector<double>& values)
     return Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
 }
 
+/// Half of each element goes to either end of it; one that ends at a bend, where no pair is, goes to its other end.
+void share_areas(const SeamLine& seam, Plane& plane)
+{
+    plane.area.setZero(plane.distance.size());
+    for (const SeamLine::Segment& s : seam.segments) {
+        for (Index i = s.first; i + 1 < s.end; ++i) {
+            const double half = 0.5 * (plane.distance[i + 1] - plane.distance[i]);
+            plane.area[i] += half;
+            plane.area[i + 1] += half;
+        }
+        plane.area[s.first] += s.before;
+        plane.area[s.end - 1] += s.beyond;
+        plane.segments.push_back(s.first);
+        plane.turned.push_back({s.tangent.x, s.tangent.y});
+    }
+}
+
 } // namespace
 
 Plane plane_of(const Mesh& mesh)
@@ -177,10 +221,15 @@ Plane plane_of(const Mesh& mesh)
     const ContactPlane& contact = mesh.contact;
     const Point heel = mesh.nodes[contact.dam_nodes.front()], toe = mesh.nodes[contact.dam_nodes.back()];
     Plane plane;
-    plane.tangent = Eigen::Vector2d(toe.x - heel.x, toe.y - heel.y).normalized();
-    plane.normal = {-plane.tangent[1], plane.tangent[0]};
     plane.distance = as_vector(contact.distance);
-    share_areas(plane);
+    if (mesh.seam) {
+        share_areas(*mesh.seam, plane);
+        plane.tangent = plane.turned.front();
+    } else {
+        share_areas(plane);
+        plane.tangent = Eigen::Vector2d(toe.x - heel.x, toe.y - heel.y).normalized();
+    }
+    plane.normal = {-plane.tangent[1], plane.tangent[0]};
     return plane;
 }
 
@@ -189,6 +238,11 @@ Plane plane_of(const LiftPlane& lift)
     Plane plane;
     plane.distance = as_vector(lift.distance);
     share_areas(plane);
+    if (!lift.upright) return plane;
+    plane.upright = true;
+    plane.area[plane.pairs() - 1] += lift.beyond;
+    plane.normal = {1.0, 0.0};
+    plane.tangent = {0.0, -1.0};
     return plane;
 }
 

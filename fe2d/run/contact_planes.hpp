@@ -9,15 +9,35 @@ namespace damslip::fe2d {
 
 /// One contact plane as m pairs of nodes. Plane vectors have length 2m: normal components (along the upward normal),
 /// then tangential ones (downstream); interface vectors of a body are (x, y) by node.
+///
+/// The path of a seam is one plane of several straight segments, each with its own directions; `normal` and `tangent` are then
+/// those of the first, on which the dam stands, and its mean slip counts. An upright interface has "below" upstream of it.
 struct Plane {
     Eigen::Vector2d normal{0.0, 1.0};  ///< up, out of the rock
     Eigen::Vector2d tangent{1.0, 0.0}; ///< downstream
+    std::vector<Eigen::Index> segments;   ///< first pair of each segment; empty: one
+    std::vector<Eigen::Vector2d> turned;  ///< tangents of the segments
+    bool upright = false;                 ///< an interface: no weight rests on it
     Eigen::VectorXd distance;          ///< of the pairs from the heel along the plane [m]
     Eigen::VectorXd area;              ///< length of the base that belongs to a pair [m]; their sum is the base length
 
     Eigen::Index pairs() const { return area.size(); }
     double length() const { return area.sum(); }
-    Eigen::VectorXd weights() const { return area / length(); } ///< area weights, sum 1 [-]
+    /// What is above rests on all of it, in one direction.
+    bool bears_alone() const { return !upright && segments.size() < 2; }
+    Eigen::Index main_pairs() const { return segments.size() < 2 ? pairs() : segments[1]; } ///< of the first segment
+    Eigen::VectorXd weights() const; ///< area weights of the main pairs, sum 1 [-]
+    std::size_t segment_of(Eigen::Index pair) const;
+    Eigen::Vector2d tangent_of(Eigen::Index pair) const
+    {
+        return segments.empty() ? tangent : turned[segment_of(pair)];
+    }
+    Eigen::Vector2d normal_of(Eigen::Index pair) const
+    {
+        if (segments.empty()) return normal;
+        const Eigen::Vector2d t = tangent_of(pair);
+        return {-t[1], t[0]};
+    }
 
     // Of any number of nodes on the plane: the pairs, or the rock's whole line.
     Eigen::VectorXd to_plane(const Eigen::VectorXd& interface) const;
@@ -26,7 +46,7 @@ struct Plane {
 };
 
 Plane plane_of(const Mesh& mesh);      ///< between dam and rock
-Plane plane_of(const LiftPlane& lift); ///< horizontal, between two blocks of the dam
+Plane plane_of(const LiftPlane& lift); ///< horizontal, between two blocks of the dam; or upright, between two of rock
 
 /// What is below the base.
 enum class BelowBase {

@@ -80,6 +80,7 @@ void CrackLines::add_line(const Scene& scene, const ContactStructure& structure,
     for (const int node : nodes) rows[node];
     for (int e = 0; e < mesh.dam_element_count; ++e) {
         const Element& element = mesh.elements[static_cast<std::size_t>(e)];
+        if (element.region != Region::dam) continue;
         const int size = element.size();
         if (std::none_of(element.nodes.begin(), element.nodes.begin() + size, [&](int n) { return rows.count(n); }))
             continue;
@@ -176,7 +177,8 @@ void CrackLines::add_patches(const Scene& scene, const ContactStructure& structu
         for (const int n : nodes) kind[static_cast<std::size_t>(n)] = as;
     };
     for (const auto* chain : {&mesh.upstream_face, &mesh.downstream_face, &mesh.crest}) mark(*chain, face);
-    mark(mesh.contact.dam_nodes, line);
+    const std::vector<int>& base = mesh.seam ? mesh.seam->base : mesh.contact.dam_nodes;
+    mark(base, line);
     std::vector<double> levels;
     for (const std::vector<LiftPlane>* lifts : {&mesh.lifts, &mesh.tied_lifts})
         for (const LiftPlane& lift : *lifts) {
@@ -184,11 +186,11 @@ void CrackLines::add_patches(const Scene& scene, const ContactStructure& structu
             mark(lift.upper_nodes, line);
             levels.push_back(mesh.nodes[static_cast<std::size_t>(lift.lower_nodes.front())].y);
         }
-    const Point heel = mesh.nodes[static_cast<std::size_t>(mesh.contact.dam_nodes.front())],
-                toe = mesh.nodes[static_cast<std::size_t>(mesh.contact.dam_nodes.back())];
+    const Point heel = mesh.nodes[static_cast<std::size_t>(base.front())],
+                toe = mesh.nodes[static_cast<std::size_t>(base.back())];
     const auto near_line = [&](const Point& p) {
-        const double base = heel.y + (toe.y - heel.y) * (p.x - heel.x) / (toe.x - heel.x);
-        return p.y - base < length ||
+        const double level = heel.y + (toe.y - heel.y) * (p.x - heel.x) / (toe.x - heel.x);
+        return p.y - level < length ||
                std::any_of(levels.begin(), levels.end(), [&](double y) { return std::abs(p.y - y) < length; });
     };
 
@@ -205,6 +207,7 @@ void CrackLines::add_patches(const Scene& scene, const ContactStructure& structu
     };
     for (int e = 0; e < mesh.dam_element_count; ++e) {
         const Element& element = mesh.elements[static_cast<std::size_t>(e)];
+        if (element.region != Region::dam) continue;
         const int size = element.size();
         const Point at = centre_of(mesh, element);
         const auto has = [&](char what) {

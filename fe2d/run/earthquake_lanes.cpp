@@ -5,6 +5,7 @@
 
 #include "core/watch.hpp"
 #include "fe2d/model/model.hpp"
+#include "scene/planes.hpp"
 
 #include <fmt/format.h>
 
@@ -55,7 +56,9 @@ double worst(std::vector<double> errors)
 /// A dam that nothing has loaded yet.
 EarthquakeRun::Lane EarthquakeRun::lane_of(const Contact& contact) const
 {
-    Lane lane{Strength(contact, scene_.lift_joints, structure_->planes()), ContactMemory(structure_->pairs())};
+    Lane lane{Strength(contact, joints_of(scene_), structure_->planes(),
+                       scene_.seam_body ? scene_.seam_body->strengths : std::vector<Contact>{}),
+              ContactMemory(structure_->pairs())};
     lane.memory.laws = joint_laws(scene_, contact, structure_->planes());
     if (auto water = base_water(scene_, structure_->plane(), options_.uplift, options_.cracked_uplift,
                                 options_.drain_loss))
@@ -400,7 +403,7 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
         const LiftHistory& h = result.history.lifts[k];
         LiftResult& lift = result.lifts.emplace_back();
         lift.plane = lane.result.stages.front().lifts[k].plane;
-        lift.name = scene_.lift_joints[k].name;
+        lift.name = joints_of(scene_)[k].name;
         lift.slip = h.slip.back();
         lift.largest_slip = dynamics.largest_slips().of(static_cast<Index>(k + 1));
         lift.largest_opening = largest(h.largest_opening);

@@ -150,7 +150,7 @@ double SlideProbe::sliding_factor(const ContactLaw& law) const
 {
     double least = std::numeric_limits<double>::infinity();
     for (Index k = 0; k < planes_.count(); ++k) {
-        const Index first = planes_.first(k), pairs = planes_[k].pairs();
+        const Index first = planes_.first(k), pairs = planes_[k].main_pairs();
         const BaseResultant& r = balances_[static_cast<std::size_t>(k)];
         const double resistance =
             law.friction.segment(first, pairs).minCoeff() * r.normal_force + law.cohesion.segment(first, pairs).sum();

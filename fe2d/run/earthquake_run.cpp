@@ -11,6 +11,7 @@
 #include "fe2d/rock/radiating_rock.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "scene/joint_bond.hpp"
+#include "scene/planes.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/water.hpp"
 
@@ -94,6 +95,10 @@ void check_scheme(const Scene& scene)
 
 EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options) : scene_(scene), options_(std::move(options))
 {
+    if (scene_.seam_body) {
+        scene_.contact = Contact(base_strength(scene_));
+        scene_.stages.geostatic = true; // zero_displacement()
+    }
     check_scheme(scene_);
     check_friction_over_rate(scene_);
     check_rebounds(scene_);
@@ -159,7 +164,13 @@ std::shared_ptr<const ReducedRock> EarthquakeRun::let_radiate()
         why_not_ = report.missed_gate();
     }
     const Plane& plane = structure_->plane();
-    return std::make_shared<const ReducedRock>(radiating_->rock.on_plane(plane.normal, plane.tangent));
+    const Index nodes = radiating_->rock.base() / 2; // of a seam they are the pairs
+    Eigen::Matrix2Xd normals(2, nodes), tangents(2, nodes);
+    for (Index i = 0; i < nodes; ++i) {
+        normals.col(i) = plane.segments.empty() ? plane.normal : plane.normal_of(i);
+        tangents.col(i) = plane.segments.empty() ? plane.tangent : plane.tangent_of(i);
+    }
+    return std::make_shared<const ReducedRock>(radiating_->rock.on_path(normals, tangents));
 }
 
 /// The dam bonded to massless rock in any case: modes of a box of rock with mass are the box's, and waves that leave have
@@ -444,6 +455,11 @@ VectorXd EarthquakeRun::zero_displacement(StaticContact& statics, const Strength
 {
     if (!scene_.stages.geostatic) return {};
     ContactMemory memory(structure_->pairs());
+    if (scene_.seam_body) { // from the rock as it lies before the dam, where nothing has parted
+        const VectorXd weight = sum_of(static_loads(scene_, *model_).rock, model_->dofs.count);
+        const StaticState state = statics.displacements(structure_->split(weight), memory);
+        return structure_->assemble(state.dam, state.rock, weight);
+    }
     Strength trial = strength;
     const SplitLoad load = split(0);
     if (solve_stage(statics, *structure_, stages_.names[0], load, trial, memory).status != StageStatus::ok) return {};

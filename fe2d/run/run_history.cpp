@@ -24,7 +24,7 @@ constexpr double rest_slip = 1e-7;  ///< the same, absolute [m]
 
 double middle_of(const Plane& plane)
 {
-    return 0.5 * (plane.distance[0] + plane.distance[plane.pairs() - 1]);
+    return 0.5 * (plane.distance[0] + plane.distance[plane.main_pairs() - 1]);
 }
 
 /// Linear interpolation of pair values at the middle of the base.
@@ -33,7 +33,7 @@ VectorXd weights_at_middle(const Plane& plane)
     const VectorXd& d = plane.distance;
     const double middle = middle_of(plane);
     Index i = 0;
-    while (i + 2 < plane.pairs() && d[i + 1] < middle) ++i;
+    while (i + 2 < plane.main_pairs() && d[i + 1] < middle) ++i;
     const double share = (middle - d[i]) / (d[i + 1] - d[i]);
     VectorXd weights = VectorXd::Zero(plane.pairs());
     weights[i] = 1.0 - share;
@@ -190,18 +190,19 @@ void HistoryRecorder::add()
     }
     c.contact_force(contact_force_);
     const VectorXd& force = contact_force_;
-    const double normal = force.head(m).sum(), about_heel = force.head(m).dot(plane.distance);
+    const Index main = plane.main_pairs();
+    const double normal = force.head(main).sum(), about_heel = force.head(main).dot(plane.distance.head(main));
     history_.time.push_back(before_.time + s.time);
     history_.ground_h.push_back(s.ground.h);
     history_.ground_v.push_back(s.ground.v);
     history_.slip.push_back(planes.mean(0, slip));
     history_.slip_heel.push_back(slip[0]);
     history_.slip_middle.push_back(to_middle_.dot(slip.head(m)));
-    history_.slip_toe.push_back(slip[m - 1]);
+    history_.slip_toe.push_back(slip[main - 1]);
     history_.rocking.push_back(rotations_.front().of(c.opening.head(m)));
     history_.crest_x.push_back(s.u[crest_] - crest_start_);
     history_.normal_force.push_back(normal);
-    history_.shear_force.push_back(-force.segment(planes.pairs(), m).sum());
+    history_.shear_force.push_back(-force.segment(planes.pairs(), main).sum());
     history_.normal_position.push_back(normal > 0.0 ? about_heel / normal : std::numeric_limits<double>::quiet_NaN());
     history_.moment.push_back(about_heel - normal * middle_of(plane));
     history_.open_length.push_back(open);

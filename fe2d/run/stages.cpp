@@ -42,6 +42,7 @@ LoadStages load_stages(const Scene& scene, const Model& model, const PressurePro
     const StaticLoads loads = static_loads(scene, model);
     LoadStages stages;
     VectorXd sum = sum_of(loads.gravity, model.dofs.count);
+    if (!loads.rock.empty()) sum += sum_of(loads.rock, model.dofs.count); // zero_displacement() of the run takes it off
     stages.names.push_back("gravity");
     stages.loads.push_back(sum);
     if (std::any_of(scene.anchors.begin(), scene.anchors.end(), [](const Anchor& a) { return a.prestress > 0.0; })) {
@@ -102,10 +103,15 @@ StageStatus judge(const BaseResultant& r, double resistance, const PlaneLimit& b
 
 std::string plane_name(const ContactStructure& structure, Index index)
 {
-    if (index == 0) return "base";
     const Mesh& mesh = structure.model().mesh;
+    if (index == 0) return mesh.seam ? "seam" : "base";
+    const LiftPlane& lift = mesh.lifts[static_cast<std::size_t>(index - 1)];
+    if (mesh.seam && index == 1) return "base";
+    if (lift.upright)
+        return fmt::format("interface at {:.6g} m", mesh.nodes[static_cast<std::size_t>(lift.upper_nodes.front())].x);
     const int node = mesh.lifts[static_cast<std::size_t>(index - 1)].upper_nodes.front();
-    return fmt::format("lift joint at {:.6g} m", mesh.nodes[node].y - mesh.nodes[mesh.contact.dam_nodes.front()].y);
+    const int heel = mesh.seam ? mesh.seam->base.front() : mesh.contact.dam_nodes.front();
+    return fmt::format("lift joint at {:.6g} m", mesh.nodes[node].y - mesh.nodes[heel].y);
 }
 
 /// All strength of a plane's bond at once; nothing where its bond takes no work to break.
@@ -142,6 +148,10 @@ PlaneBalance balance(const ContactStructure& structure, Index index, const Vecto
     const Index first = structure.planes().first(index), pairs = structure.planes()[index].pairs();
     PlaneBalance result;
     result.plane = plane_name(structure, index);
+    if (!structure.planes()[index].bears_alone()) { // what else holds is not known: read_state()
+        result.sliding_factor = std::numeric_limits<double>::infinity();
+        return result;
+    }
     const BaseResultant of_loads = base_resultant(structure, dam_load, index);
     result.resultant = of_loads;
     AnchorLaw::Support now, most;
@@ -167,6 +177,27 @@ PlaneBalance balance(const ContactStructure& structure, Index index, const Vecto
     return result;
 }
 
+/// Of a plane that is one of several that hold a body, statics alone tell nothing: what its main pairs carry.
+void read_forces(const ContactPlanes& planes, Index index, const ContactMemory& memory, const ContactLaw& law,
+                 PlaneBalance& result)
+{
+    const Plane& plane = planes[index];
+    const Index first = planes.first(index), pairs = plane.main_pairs();
+    const VectorXd force = memory.contact_force(), normal = force.segment(first, pairs),
+                   distance = plane.distance.head(pairs).array() - plane.distance[0];
+    double cohesion = 0.0;
+    for (Index i = 0; i < pairs; ++i)
+        if (memory.states[static_cast<std::size_t>(first + i)] != ContactState::open) cohesion += law.cohesion[first + i];
+    BaseResultant& r = result.resultant;
+    r.normal_force = normal.sum();
+    r.shear_force = -force.segment(planes.pairs() + first, pairs).sum();
+    r.position = r.normal_force > 0.0 ? normal.dot(distance) / r.normal_force : 0.0;
+    const double shear = std::abs(r.shear_force);
+    result.critical_friction = r.normal_force > 0.0 ? std::max(0.0, shear - cohesion) / r.normal_force : 0.0;
+    if (shear > 1e-12 * r.normal_force)
+        result.sliding_factor = (law.friction.segment(first, pairs).minCoeff() * r.normal_force + cohesion) / shear;
+}
+
 /// Where the solver has opened the joint there is no cohesion.
 void read_state(const ContactPlanes& planes, Index index, const ContactMemory& memory, const ContactLaw& law,
                 PlaneBalance& result)
@@ -183,6 +214,7 @@ void read_state(const ContactPlanes& planes, Index index, const ContactMemory& m
         }
         if (is_slip(state)) result.slipping_length += plane.area[i];
     }
+    if (!plane.bears_alone()) return read_forces(planes, index, memory, law, result);
     if (std::isfinite(result.sliding_factor)) result.sliding_factor -= without / std::abs(result.resultant.shear_force);
 }
 

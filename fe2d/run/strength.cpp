@@ -5,6 +5,7 @@
 #include "fe2d/contact/joint_law.hpp"
 #include "fe2d/run/contact_planes.hpp"
 #include "scene/joint_bond.hpp"
+#include "scene/planes.hpp"
 #include "scene/scene.hpp"
 #include "scene/water.hpp"
 
@@ -22,14 +23,22 @@ using Eigen::Index;
 Strength::Strength(const Contact& contact, const Plane& plane) : law_(uniform_law(plane.pairs(), 0.0))
 {
     law_.separation = contact.separation;
+    base_area_ = plane.area;
     add(contact, 0, plane.area);
 }
 
-Strength::Strength(const Contact& base, const std::vector<LiftJoint>& joints, const ContactPlanes& planes)
+Strength::Strength(const Contact& base, const std::vector<LiftJoint>& joints, const ContactPlanes& planes,
+                   const std::vector<Contact>& segments)
     : law_(uniform_law(planes.pairs(), 0.0))
 {
     law_.separation = base.separation; // [contact] says it for all planes
-    add(base, 0, planes.base().area);
+    base_area_ = planes.base().area;
+    add(base, 0, base_area_.head(planes.base().main_pairs()));
+    for (std::size_t s = 1; s < segments.size(); ++s) {
+        const Index first = planes.base().segments[s],
+                    end = s + 1 < segments.size() ? planes.base().segments[s + 1] : base_area_.size();
+        add(segments[s], first, base_area_.segment(first, end - first));
+    }
     for (Index k = 1; k < planes.count(); ++k)
         add(joints[static_cast<std::size_t>(k - 1)].strength, planes.first(k), planes[k].area);
 }
@@ -48,7 +57,6 @@ void Strength::add(const Contact& contact, Index first, const Eigen::VectorXd& a
     }
     if (!friction.constant() || part.loss) constant_ = false;
     parts_.push_back(std::move(part));
-    if (first == 0) base_area_ = area;
     broken_.assign(static_cast<std::size_t>(law_.pairs()), 0);
     last_slip_ = accumulated_ = Eigen::VectorXd::Zero(law_.pairs());
 }
@@ -139,12 +147,17 @@ void Strength::restore(const RunState& state)
 
 namespace {
 
+Contact strength_of(const Scene& scene, const Contact& base, Index plane)
+{
+    return plane == 0 ? base : joints_of(scene)[static_cast<std::size_t>(plane - 1)].strength;
+}
+
 void add_bond(const Scene& scene, const Contact& base, const ContactPlanes& planes, JointLaws& laws)
 {
     std::vector<BondStrength> pairs(static_cast<std::size_t>(planes.pairs()));
     bool any = false;
     for (Index k = 0; k < planes.count(); ++k) {
-        const Contact& strength = k == 0 ? base : scene.lift_joints[static_cast<std::size_t>(k - 1)].strength;
+        const Contact strength = strength_of(scene, base, k);
         if (!breaks_by_energy(strength)) continue;
         any = true;
         const double friction = FrictionOverSlip(strength).at(0.0);
@@ -160,16 +173,11 @@ void add_bond(const Scene& scene, const Contact& base, const ContactPlanes& plan
     if (any) laws.add(std::make_unique<BondLaw>(std::move(pairs)));
 }
 
-const Contact& strength_of(const Scene& scene, const Contact& base, Index plane)
-{
-    return plane == 0 ? base : scene.lift_joints[static_cast<std::size_t>(plane - 1)].strength;
-}
-
 void add_rate(const Scene& scene, const Contact& base, const ContactPlanes& planes, JointLaws& laws)
 {
     std::vector<RateFrictionPart> parts;
     for (Index k = 0; k < planes.count(); ++k)
-        if (const RateFriction& rate = strength_of(scene, base, k).rate; rate.active())
+        if (const RateFriction rate = strength_of(scene, base, k).rate; rate.active())
             parts.push_back({planes.first(k), planes[k].pairs(), rate});
     if (!parts.empty()) laws.add(std::make_unique<RateFrictionLaw>(planes.pairs(), std::move(parts)));
 }
@@ -235,15 +243,16 @@ std::unique_ptr<AnchorLaw> anchors_on(const Scene& scene, const ContactPlanes& p
 {
     if (scene.anchors.empty()) return nullptr;
     std::vector<PlacedAnchor> all;
+    const std::vector<LiftJoint> joints = joints_of(scene);
     for (const Anchor& anchor : scene.anchors) {
         Eigen::Index index = 0;
         if (!anchor.joint.empty()) {
-            const auto joint = std::find_if(scene.lift_joints.begin(), scene.lift_joints.end(),
-                                            [&](const LiftJoint& j) { return j.name == anchor.joint; });
-            index = 1 + (joint - scene.lift_joints.begin());
+            const auto joint =
+                std::find_if(joints.begin(), joints.end(), [&](const LiftJoint& j) { return j.name == anchor.joint; });
+            index = 1 + (joint - joints.begin());
         }
         const Contact& contact =
-            index == 0 ? scene.contact : scene.lift_joints[static_cast<std::size_t>(index - 1)].strength;
+            index == 0 ? scene.contact : joints[static_cast<std::size_t>(index - 1)].strength;
         const Plane& plane = planes[index];
         const double at = plane.distance[0] + anchor.distance;
         Eigen::Index i = 0;

@@ -34,7 +34,9 @@ struct RunState {
 class Strength {
 public:
     Strength(const Contact& contact, const Plane& plane); ///< of one plane
-    Strength(const Contact& base, const std::vector<LiftJoint>& joints, const ContactPlanes& planes);
+    /// @param joints  joints_of() the scene @param segments  of a base that is the path of a seam; of its first `base` counts
+    Strength(const Contact& base, const std::vector<LiftJoint>& joints, const ContactPlanes& planes,
+             const std::vector<Contact>& segments = {});
 
     const ContactLaw& law() const { return law_; }
     bool constant() const { return constant_; }

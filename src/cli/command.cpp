@@ -83,6 +83,11 @@ void add_rock(CLI::App& sub, RunInputs& in)
         ->check(CLI::IsMember({"radiating", "massless"}));
 }
 
+void add_plane(CLI::App& sub, RunInputs& in)
+{
+    sub.add_option("--plane", in.plane, "what the dam slides on: base (default), or the name of a [[seam]], whose rock then moves along");
+}
+
 void add_response_spectrum(CLI::App& sub, SpectrumArguments& a)
 {
     const char* const group = "Response spectrum";

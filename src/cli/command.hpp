@@ -70,6 +70,8 @@ void add_scale(CLI::App& sub, RunInputs& in);
 void add_friction(CLI::App& sub, RunInputs& in);
 /// --rock, of commands that run finite elements.
 void add_rock(CLI::App& sub, RunInputs& in);
+/// --plane, of commands that run finite elements.
+void add_plane(CLI::App& sub, RunInputs& in);
 
 /// --response-spectrum and what belongs to it.
 void add_response_spectrum(CLI::App& sub, SpectrumArguments& a);

@@ -175,6 +175,11 @@ int fe(const FeArguments& arguments, const Streams& streams)
         refuse_usage(arguments.reduced ? "--state-in or --state-out with --reduced."
                                        : "--state-in or --state-out with --base tied.",
                      "the state of joints that slide and open, of a full run", "leave one of them out");
+    if (!given.planes.slides_on.empty() && (arguments.reduced || arguments.base == "tied" || arguments.spectrum.wanted))
+        refuse_usage(arguments.reduced           ? "--plane with --reduced."
+                     : arguments.base == "tied" ? "--plane with --base tied."
+                                                : "--plane with --response-spectrum.",
+                     "a seam in a full run", "leave one of them out");
     if (arguments.frames && arguments.base == "tied")
         refuse_usage("--frames with --base tied.", "a time series of a dam that slides and opens",
                      "leave one of them out");
@@ -201,6 +206,7 @@ void fe_flags(CLI::App& sub, FeArguments& a)
         ->group("Ground motion");
     add_friction(sub, a.inputs);
     add_rock(sub, a.inputs);
+    add_plane(sub, a.inputs);
     sub.add_option("--base", a.base, "contact: the dam slides, opens and rocks; tied: it is bonded to its base")
         ->check(CLI::IsMember({"contact", "tied"}))
         ->capture_default_str();

@@ -1,6 +1,7 @@
 #include "cli/model_commands.hpp"
 
 #include "analysis/prepare/lift_joints.hpp"
+#include "analysis/prepare/seam_body.hpp"
 #include "analysis/spectrum/spectrum_level.hpp"
 #include "cli/command.hpp"
 #include "cli/verifier.hpp"
@@ -94,7 +95,7 @@ int mesh(const MeshArguments& arguments, const Streams& streams)
     if (!arguments.results.empty())
         throw UsageError(
             Diagnostic{"", 0, 0, "--results without --to calculix.", "results of CalculiX", "add  --to calculix"});
-    const Scene given = with_joints_of_lifts(read_run_scene(arguments.inputs, streams));
+    const Scene given = with_seam_body(with_joints_of_lifts(read_run_scene(arguments.inputs, streams)));
     need_section(given, "damslip mesh", "a wedge is rigid; damslip screen SCENE gives its slip");
     const Scene scene = called_for(make_effect_plan(given, Method::finite_elements), given);
     fe2d::ContactExtension extension;
@@ -125,6 +126,7 @@ int mesh(const MeshArguments& arguments, const Streams& streams)
 void mesh_flags(CLI::App& sub, MeshArguments& a)
 {
     add_scene(sub, a.inputs);
+    add_plane(sub, a.inputs);
     add_out(
         sub, a.out, OutputPath::file,
         "Gmsh file (.msh, ASCII) with physical groups, as mesh.file reads it; deck for CalculiX with --to calculix");

@@ -15,6 +15,7 @@
 #include "scene/read.hpp"
 #include "scene/scene_text.hpp"
 #include "scene/water.hpp"
+#include "scene/planes.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -183,7 +184,7 @@ void add_model(const Ready& ready, Explained& out)
 {
     out.plan = ready.plan; // names the water that was chosen
     out.model = fe2d::build_model(ready.scene, ready.model_options());
-    out.lift_joints = ready.scene.lift_joints;
+    out.lift_joints = joints_of(ready.scene);
     if (ready.plan.on(Effect::acoustic_water) && has_water(ready.scene)) out.water = fe2d::build_fluid(ready.scene);
     out.cost = contact_cost(ready);
     for (std::string& note : water_notes(ready)) out.notes.push_back(std::move(note));
@@ -225,11 +226,16 @@ int ablate(const ExplainArguments& arguments, const Streams& streams)
 /// The effect plan: which effects are on, why, and what each costs.
 int explain(const ExplainArguments& arguments, const Streams& streams)
 {
+    const bool on_seam = !arguments.inputs.plane.empty();
+    if (arguments.ablate && on_seam)
+        refuse_usage("--ablate with --plane.", "effects of the dam on its base", "leave one of them out");
     if (arguments.ablate) return ablate(arguments, streams);
     const Scene given = read_run_scene(arguments.inputs, streams);
     if (arguments.method == "fe")
         need_section(given, "damslip explain --method fe", "leave --method out: the wedge is rigid");
     const Method method = arguments.method == "fe" ? Method::finite_elements : Method::rigid_block;
+    if (on_seam && method != Method::finite_elements)
+        refuse_usage("--plane with --method rigid.", "--method fe", "damslip screen SCENE has all planes as rigid blocks");
     Explained out{given, arguments.method, make_effect_plan(given, method), {}, {}, {}, note_texts(given.notes)};
     if (method == Method::finite_elements)
         add_model(prepare(given, method, records_at_hand(given), {.joints_of_lifts = true, .stop = streams.stop}), out);
@@ -243,6 +249,7 @@ void explain_flags(CLI::App& sub, ExplainArguments& a)
     add_rock(sub, a.inputs);
     add_scale(sub, a.inputs);
     add_friction(sub, a.inputs);
+    add_plane(sub, a.inputs);
     sub.add_option("--method", a.method, "rigid or fe")->check(CLI::IsMember({"rigid", "fe"}))->capture_default_str();
     const char* const group = "Ablation";
     CLI::Option* ablate =

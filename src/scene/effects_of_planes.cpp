@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-/// Effects of the planes beside the base. Finite elements follow none of them.
+/// Effects of the planes beside the base. Finite elements follow a seam that they are asked to slide on (Scene::seam_body).
 namespace damslip {
 
 namespace {
@@ -26,7 +26,9 @@ bool has_planes(const Scene& s)
 template <class Is>
 bool any_seam(const Scene& s, Is&& is)
 {
-    return std::any_of(s.seams.begin(), s.seams.end(), is);
+    return std::any_of(s.seams.begin(), s.seams.end(), [&](const Seam& seam) {
+        return (!s.seam_body || s.seam_body->name == seam.name) && is(seam);
+    });
 }
 
 bool pushes_wedge(const Seam& seam)
@@ -59,7 +61,7 @@ Decision of_planes(Method method, bool on, std::string yes, std::string no, std:
 template <bool (*is)(const Seam&)>
 Decision of_seams(Method method, const Scene& s, const char* yes, const char* no, const char* cost)
 {
-    return of_planes(method, any_seam(s, is), yes, no, cost);
+    return of_planes(s.seam_body ? Method::rigid_block : method, any_seam(s, is), yes, no, cost);
 }
 
 void leave_wedges(Scene& s)
@@ -115,6 +117,9 @@ std::vector<EffectRow> plane_effects()
         {.name = "seams",
          .decide =
              [](const Scene& s, Method m) {
+                 if (s.seam_body)
+                     return Decision{true, fmt::format("slides on \"{}\" and on the base", s.seam_body->name),
+                                     "the rock above it, two unknowns a pair along its path"};
                  return of_planes(m, has_seams(s), fmt::format("{} [[seam]]", s.seams.size()), "no [[seam]]",
                                   "one chain of rigid blocks for each");
              },

@@ -87,4 +87,19 @@ Polyline seam_path(const Scene& scene, const Seam& seam)
     return {a, at(end.x)};
 }
 
+const Contact& base_strength(const Scene& scene)
+{
+    return scene.seam_body ? scene.seam_body->strengths.front() : scene.contact;
+}
+
+std::vector<LiftJoint> joints_of(const Scene& scene)
+{
+    std::vector<LiftJoint> joints = scene.lift_joints;
+    if (!scene.seam_body) return joints;
+    const std::vector<LiftJoint>& own = scene.seam_body->interfaces; // the first is the base
+    joints.insert(joints.end(), own.begin() + 1, own.end());
+    joints.insert(joints.begin(), own.front());
+    return joints;
+}
+
 } // namespace damslip

@@ -28,4 +28,9 @@ double ground_level(const Polyline& ground, double x);
 /// wedge, to below the toe, or to where it comes to the ground (100 base lengths at most).
 Polyline seam_path(const Scene& scene, const Seam& seam);
 
+/// FE: strength of what the dam slides on, the base or the seam of its body.
+const Contact& base_strength(const Scene& scene);
+/// FE: joints in the order of the mesh, the lift joints, then the interfaces of a seam's body.
+std::vector<LiftJoint> joints_of(const Scene& scene);
+
 } // namespace damslip

@@ -275,6 +275,19 @@ struct Seam {
     SeamInterface interface;
 };
 
+/// FE: what of the rock moves with the dam on a seam, in place of the dam on its base (with_seam_body()). Each bend of the path has
+/// an upright interface to the ground; the dam stands on the first segment.
+struct SeamBody {
+    std::string name;
+    Polyline path;                   ///< the seam, then the plane of its wedge; from upstream to downstream [m]
+    std::vector<Contact> strengths;  ///< of each segment
+    std::vector<Point> water;        ///< x = along the path [m], y = pressure on it [Pa]; empty: none
+    std::vector<LiftJoint> interfaces; ///< of each bend
+    /// Water in the faces is hydrostatic below these levels [m]: the crack above the first point, the interfaces, the free end.
+    std::optional<double> crack_level, end_level;
+    std::vector<std::optional<double>> interface_levels;
+};
+
 enum class PlaneGeometry { small, linear }; ///< linear: the yield grows with the slip as the wedge is pushed up
 enum class PlaneJudgement { factor, slip };  ///< which plane governs: least F over required, or largest slip
 
@@ -282,7 +295,7 @@ enum class PlaneJudgement { factor, slip };  ///< which plane governs: least F o
 struct PlaneOptions {
     PlaneGeometry geometry = PlaneGeometry::small;
     PlaneJudgement governs = PlaneJudgement::slip;
-    /// Name of the seam or lift that the rigid block of the scene slides on; empty: the base. No key: `sweep --plane` sets it.
+    /// Name of the seam or lift that the scene slides on; empty: the base. No key: `--plane` of `sweep` and `fe` sets it.
     std::string slides_on;
 };
 
@@ -491,6 +504,7 @@ struct Scene {
     std::vector<LiftJoint> tied_lifts; ///< FE: lines of the mesh that do not part, whose strength is watched; the same order
     std::optional<Lifts> lifts;
     std::vector<Seam> seams;
+    std::optional<SeamBody> seam_body; ///< FE: the body that slides; none: the dam on its base
     PlaneOptions planes;
     std::vector<Anchor> anchors;
     std::optional<Foundation> foundation;

@@ -1,6 +1,7 @@
 #include "analysis/fe/contact_run.hpp"
 
 #include "fe2d/run/earthquake_run.hpp"
+#include "scene/planes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -226,8 +227,8 @@ ContactCost contact_cost(const Ready& ready)
     if (fails_statically(trial.status)) { // costs do not depend on friction: try one that holds
         const double needed = trial.stages.back().critical_friction;
         if (std::isfinite(needed)) {
-            Contact holds = scene.contact;
-            holds.friction = 1.1 * std::max(needed, scene.contact.friction);
+            Contact holds = base_strength(scene);
+            holds.friction = 1.1 * std::max(needed, holds.friction);
             trial = model.run(motion, holds);
         }
     }

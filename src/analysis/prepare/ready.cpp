@@ -3,6 +3,7 @@
 #include "analysis/prepare/flexible_mass.hpp"
 #include "analysis/prepare/lift_joints.hpp"
 #include "analysis/prepare/reducible.hpp"
+#include "analysis/prepare/seam_body.hpp"
 #include "core/file.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "fe2d/time/modal_run.hpp"
@@ -124,6 +125,7 @@ RigidModel Ready::rigid_model(std::optional<CrackRule> crack) const
 
 std::vector<sliding::Equilibrium> Ready::combinations() const
 {
+    if (scene.seam_body) return {}; // they are of the base
     sliding::PeakGround peak;
     for (const RecordPair& pair : records()) {
         const GroundMotion shaking = motion(pair);
@@ -152,13 +154,10 @@ fe2d::ModelOptions Ready::model_options() const
     return options;
 }
 
-fe2d::RunOptions Ready::run_options(const Watch& watch) const
+/// Under the base, before and after the earthquake.
+void Ready::add_uplift(fe2d::RunOptions& options) const
 {
-    fe2d::RunOptions options;
-    options.added_mass = added_mass_law(scene);
     options.uplift = uplift_of(scene, scene_uplift_state(scene), seepage->profile_of(scene));
-    if (has_water_in_rock(scene))
-        options.water_in_rock = [scene = scene](const fe2d::Model& model) { return water_in_rock(scene, model); };
     options.uplift_after = uplift_after(scene, seepage);
     if (scene.uplift && scene.uplift->water.follows()) {
         options.cracked_uplift = cracked_uplift(scene, scene_uplift_state(scene), seepage);
@@ -176,6 +175,18 @@ fe2d::RunOptions Ready::run_options(const Watch& watch) const
         water.curtain = CurtainState::damaged;
         if (options.cracked_uplift_after) options.drain_loss->cracked_after = cracked_uplift(scene, water, seepage);
     }
+}
+
+fe2d::RunOptions Ready::run_options(const Watch& watch) const
+{
+    fe2d::RunOptions options;
+    options.added_mass = added_mass_law(scene);
+    if (scene.seam_body)
+        for (const Point& p : scene.seam_body->water) options.uplift.points.push_back({p.x, p.y});
+    else
+        add_uplift(options);
+    if (has_water_in_rock(scene))
+        options.water_in_rock = [scene = scene](const fe2d::Model& model) { return water_in_rock(scene, model); };
     if (scene.damping.method == DampingMethod::modified_rayleigh && !records().empty())
         options.damping = damping_by_record(scene, model_options(), motion(records().front()));
     if (rock_radiates(scene)) options.wave_frequency = wave_frequency();
@@ -203,6 +214,7 @@ Ready prepare(Scene given, Method method, Records records, const PrepareOptions&
     ready.statics = options.statics;
     if (records) given.motion.records = files_of(*records);
     if (options.joints_of_lifts) given = with_joints_of_lifts(std::move(given));
+    if (method == Method::finite_elements) given = with_seam_body(std::move(given));
     ready.pairs = records ? std::move(records) : std::make_shared<const std::vector<RecordPair>>();
     if (options.flexible_modes) ready.flexible_modes = resolve_flexible_modes(given);
     note_not_honoured(given, method == Method::finite_elements

@@ -67,6 +67,8 @@ struct Ready {
     /// component. Its progress only asks whether to stop. @param watch  outlives the runs
     fe2d::RunOptions run_options(const Watch& watch) const;
 
+    void add_uplift(fe2d::RunOptions& options) const;
+
     /// The same base and records with another scene of the same kind: elements of another size.
     Ready with(Scene changed) const;
 };

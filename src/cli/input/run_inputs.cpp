@@ -1,5 +1,6 @@
 #include "cli/input/run_inputs.hpp"
 
+#include "analysis/prepare/plane_model.hpp"
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/record_list.hpp"
 #include "core/file.hpp"
@@ -130,6 +131,7 @@ std::string shell_words(const RunInputs& in)
     add("--units", in.unit);
     if (in.dt) add("--dt", shortest(*in.dt));
     add("--column", in.column);
+    add("--plane", in.plane);
     add("--vertical-column", in.vertical_column);
     return line;
 }
@@ -138,6 +140,7 @@ Scene read_run_scene(const RunInputs& inputs, const Streams& streams)
 {
     Scene scene = scene_as_written(inputs);
     put_records(inputs, scene);
+    if (inputs.plane != base_plane) scene.planes.slides_on = inputs.plane;
     if (inputs.friction) {
         if (!(*inputs.friction >= 0 && *inputs.friction <= 10))
             refuse_usage(fmt::format("--friction {} is not allowed.", *inputs.friction), "Coulomb mu, 0 ... 10",

@@ -25,6 +25,7 @@ struct RunInputs {
     std::optional<double> friction;
     std::optional<double> scale;
     std::string rock;   ///< "radiating" or "massless" in place of the scene's; empty: the scene's
+    std::string plane;  ///< seam that finite elements slide on; empty or "base": the base
     std::string scheme; ///< "exact" or "slammer"; empty: the scene's
 };
 

@@ -9,6 +9,7 @@
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
 #include "scene/write.hpp"
+#include "scene/planes.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -184,8 +185,8 @@ private:
         add(mesh().contact.distance, of_.uplift);
         for (std::size_t k = 0; k < mesh().lifts.size(); ++k) {
             const std::vector<double>& distances = mesh().lifts[k].distance;
-            const LiftJoint& joint = of_.scene.lift_joints[k];
-            add(distances, joint.water == JointWater::none
+            const LiftJoint joint = joints_of(of_.scene)[k];
+            add(distances, joint.water == JointWater::none && joint.pressures.empty()
                                ? PressureProfile{}
                                : fe2d::lift_water_profile(of_.scene, joint, distances.back()));
         }

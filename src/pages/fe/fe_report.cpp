@@ -12,6 +12,7 @@
 #include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
 #include "scene/write.hpp"
+#include "scene/planes.hpp"
 #include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <algorithm>
@@ -196,7 +197,7 @@ std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& sce
                       worst.rigid ? millimetres(worst.rigid->status, worst.rigid->max_slip) : "slides statically");
     if (scene.criteria.allowable_slip)
         list.emplace_back("Allowable slip", fmt::format("{:.4g} mm", *scene.criteria.allowable_slip / mm));
-    list.emplace_back("Friction μ", fmt::format("{:.4g}", scene.contact.friction));
+    list.emplace_back("Friction μ", fmt::format("{:.4g}", base_strength(scene).friction));
     if (!worst.fe.stages.empty())
         list.emplace_back("Needs statically μ ≥", fmt::format("{:.4g}", worst.fe.stages.back().critical_friction));
     if (worst.fe.modes > 0) {
@@ -429,9 +430,10 @@ std::vector<std::string> contact_messages(const Scene& scene, const std::vector<
 std::vector<std::string> bond_messages(const Scene& scene, const fe2d::Mesh& mesh)
 {
     std::vector<std::string> messages;
+    const std::vector<LiftJoint> joints = joints_of(scene);
     for (std::size_t k = scene.mesh.file ? 0 : 1; k <= mesh.lifts.size(); ++k) {
         const bool base = k == 0;
-        const LiftJoint* lift = base ? nullptr : &scene.lift_joints[k - 1];
+        const LiftJoint* lift = base ? nullptr : &joints[k - 1];
         const Contact& strength = base ? scene.contact : lift->strength;
         const fe2d::NodeChain& nodes = base ? mesh.contact.dam_nodes : mesh.lifts[k - 1].upper_nodes;
         const auto modulus = joint_modulus(scene, base);
@@ -466,7 +468,7 @@ void add_points(const Scene& scene, const std::vector<ContactRun>& runs, Answer&
         governs += fmt::format("; {:.3g} m of the base open at most", *std::max_element(open.begin(), open.end()));
     if (!worst.fe.stages.empty())
         governs += fmt::format("; without earthquake it needs a friction of {:.3g}, given {:.3g}",
-                               worst.fe.stages.back().critical_friction, scene.contact.friction);
+                               worst.fe.stages.back().critical_friction, base_strength(scene).friction);
     if (const ContactRun* most = most_tensioned(runs)) governs += "; concrete " + crack_words(*most);
     answer.point("governs", governs);
     constexpr double wide = 0.1; // of the slip
@@ -522,7 +524,7 @@ Answer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>& 
     answer.add("slip", contact_slip_table(runs));
     answer.add("run_out", run_out_table(runs));
     answer.add("cracking", crack_table(runs));
-    if (!in.scene.lift_joints.empty()) answer.add("lift_joints", contact_lift_table(runs, allowable), {.brief = true});
+    if (!joints_of(in.scene).empty()) answer.add("lift_joints", contact_lift_table(runs, allowable), {.brief = true});
     if (!in.scene.anchors.empty()) answer.add("anchors", contact_anchor_table(runs));
     answer.add("counts", contact_count_table(runs), {.text = false});
     answer.add("energy", contact_energy_table(runs), {.text = false});

@@ -1,0 +1,190 @@
+#include "analysis/prepare/seam_body.hpp"
+
+#include "analysis/prepare/plane_model.hpp"
+#include "core/input_error.hpp"
+#include "core/text.hpp"
+#include "core/units.hpp"
+#include "scene/planes.hpp"
+#include "scene/section.hpp"
+#include "scene/water.hpp"
+#include "sliding/planes/seam.hpp"
+#include "sliding/uplift/uplift.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace damslip {
+
+namespace {
+
+/// What finite elements on a seam do not follow.
+struct Obstacle {
+    bool (*there)(const Scene& scene, const Seam& seam);
+    const char *what, *expected, *fix;
+};
+
+bool bends(const Seam& seam)
+{
+    return seam.exit == SeamExit::wedge || seam.points.size() > 2;
+}
+
+const Obstacle obstacles[] = {
+    {[](const Scene& s, const Seam&) { return !s.foundation || !s.foundation->material.young_modulus; },
+     "foundation.young_modulus_GPa is not there", "elastic rock above and below the seam",
+     "add  young_modulus_GPa = 20  to [foundation]"},
+    {[](const Scene& s, const Seam&) { return s.mesh.file.has_value(); }, "mesh.file is given",
+     "the program's own mesh, which has the seam as a line", "delete  file  from [mesh]"},
+    {[](const Scene& s, const Seam&) {
+         return s.mesh.element == ElementKind::q8 || s.mesh.element == ElementKind::q9 || s.mesh.element == ElementKind::t6;
+     },
+     "mesh.element is quadratic", "linear elements: q4, q4-incompatible or t3", "delete  element  from [mesh]"},
+    {[](const Scene& s, const Seam&) { return s.mesh.rock_contact_size.has_value(); }, "mesh.rock_contact_size_m is given",
+     "the same nodes on both sides of the seam", "delete  rock_contact_size_m  from [mesh]"},
+    {[](const Scene& s, const Seam&) { return s.contact.sliding == JointPath::finite; }, "contact.sliding = \"finite\"",
+     "sliding = \"small\"", "write  sliding = \"small\"  in [contact]"},
+    {[](const Scene& s, const Seam&) { return s.stages.pore_pressure != PorePressure::none; },
+     "stages.pore_pressure is given", "water on the boundaries of the blocks: along the seam, in its faces",
+     "delete  pore_pressure  from [stages]"},
+    {[](const Scene& s, const Seam&) {
+         return std::any_of(s.anchors.begin(), s.anchors.end(), [](const Anchor& a) { return a.joint.empty(); });
+     },
+     "an [[anchor]] crosses the base", "anchors of lift joints: how far those of the base reach down is not known",
+     "take the anchor out, or run the base (without --plane)"},
+    {[](const Scene& s, const Seam&) { return s.uplift && s.uplift->water.follows(); }, "uplift.opening follows the joint",
+     "water along the seam that stays as it is", "delete  opening  from [uplift]"},
+    {[](const Scene& s, const Seam&) { return s.uplift && s.uplift->model == UpliftModel::seepage; },
+     "uplift.model = \"seepage\"", "uplift by a profile: what flows in rock with a seam is not known",
+     "write  model = \"linear\"  or another in [uplift]"},
+    {[](const Scene& s, const Seam& seam) {
+         return seam.uplift == UpliftModel::drains && s.drains && s.drains->lost_at_slip.has_value();
+     },
+     "drains.lost_at_slip_m is given", "drains that last", "delete  lost_at_slip_m  from [drains], or use  damslip screen"},
+    {[](const Scene&, const Seam& seam) {
+         return seam.dilation != 0.0 || (seam.wedge && seam.wedge->dilation != 0.0);
+     },
+     "it dilates (dilation_deg)", "a seam along which blocks slide without rising", "write  dilation_deg = 0 , or use  damslip screen"},
+    {[](const Scene&, const Seam& seam) {
+         return bends(seam) && std::abs(seam.interface.angle.value_or(90.0 * units::degree) - 90.0 * units::degree) > 1e-9;
+     },
+     "interface.angle_deg is not 90", "upright interfaces", "write  angle_deg = 90  in [seam.interface], or use  damslip screen"},
+    {[](const Scene& s, const Seam& seam) {
+         const Polyline path = seam_path(s, seam);
+         return std::any_of(path.begin() + 1, path.end(), [&](Point p) { return p.x < heel(s.section).x - 1e-9; });
+     },
+     "its path bends upstream of the dam", "a straight path up to the toe", "give a path that is straight up to the toe"},
+};
+
+void check(const Scene& scene, const Seam& seam)
+{
+    for (const Obstacle& o : obstacles)
+        if (o.there(scene, seam))
+            throw InputError(Diagnostic{scene.file.string(), 0, 0,
+                                        fmt::format("--plane \"{}\" by finite elements: {}.", seam.name, o.what), o.expected, o.fix});
+}
+
+const Seam& named_seam(const Scene& scene)
+{
+    const std::string& name = scene.planes.slides_on;
+    std::vector<std::string> names;
+    for (const Seam& seam : scene.seams) {
+        if (seam.name == name) return seam;
+        names.push_back(seam.name);
+    }
+    if (names.empty())
+        refuse_usage(fmt::format("--plane \"{}\", but the scene has no [[seam]].", name), "the name of a seam, or base",
+                     "add a [[seam]], or leave --plane out");
+    const std::string_view near = nearest(name, names);
+    refuse_usage(fmt::format("no seam is named \"{}\".", name),
+                 fmt::format("seams: {}; lifts slide beside the base without --plane", fmt::join(names, ", ")),
+                 fmt::format("write  --plane \"{}\"", near.empty() ? names.front() : std::string(near)));
+}
+
+/// Coulomb's law with what [contact] says for all planes of finite elements.
+Contact strength_of(const Contact& of_base, double friction, double cohesion)
+{
+    Contact strength = of_base;
+    strength.friction = friction;
+    strength.cohesion = cohesion;
+    strength.residual_friction.reset();
+    strength.friction_table.clear();
+    strength.cohesion_lost_at_slip = false;
+    strength.bond = {};
+    strength.rate = {};
+    return strength;
+}
+
+Contact strength_of(const Contact& of_base, const Contact& of_seam)
+{
+    Contact strength = strength_of(of_base, of_seam.friction, of_seam.cohesion);
+    strength.residual_friction = of_seam.residual_friction;
+    strength.residual_slip = of_seam.residual_slip;
+    strength.residual_path = of_seam.residual_path;
+    strength.friction_table = of_seam.friction_table;
+    strength.cohesion_lost_at_slip = of_seam.cohesion_lost_at_slip;
+    return strength;
+}
+
+/// Levels below which the faces of the body are full of water, as the chain of rigid blocks has it.
+void add_face_levels(const Scene& scene, const Seam& seam, const sliding::SeamModel& model, SeamBody& body)
+{
+    const Polyline ground = ground_line(scene);
+    const Point first = model.path.front(), last = model.path.back();
+    if (scene.reservoir && first.y < ground_level(ground, first.x) - 1e-9) body.crack_level = scene.reservoir->level;
+    if (seam.exit != SeamExit::daylight && last.y < ground_level(ground, last.x) - 1e-9)
+        body.end_level = std::max(ground_level(ground, last.x), scene.tailwater ? scene.tailwater->level : last.y);
+    double along = 0.0;
+    for (std::size_t i = 1; i + 1 < model.path.size(); ++i) {
+        const Point a = model.path[i - 1], foot = model.path[i];
+        along += std::hypot(foot.x - a.x, foot.y - a.y);
+        const double pressure = pressure_at(model.pressure, along);
+        body.interface_levels.push_back(pressure > 0.0 ? std::optional(foot.y + pressure / water_unit_weight(scene))
+                                                       : std::nullopt);
+    }
+}
+
+SeamBody body_of(const Scene& scene, const Seam& seam, std::optional<double> angle)
+{
+    const sliding::SeamModel model = sliding::seam_model(scene, seam, angle);
+    SeamBody body;
+    body.name = seam.name;
+    body.path = model.path;
+    const std::size_t of_seam = seam_path(scene, seam).size() - 1;
+    for (std::size_t i = 0; i + 1 < body.path.size(); ++i)
+        body.strengths.push_back(i < of_seam ? strength_of(scene.contact, seam.strength)
+                                             : strength_of(scene.contact, seam.wedge->friction, seam.wedge->cohesion));
+    for (const ProfilePoint& p : model.pressure.points) body.water.push_back({p.distance, p.pressure});
+    LiftJoint& base = body.interfaces.emplace_back();
+    base.name = "base";
+    base.strength = scene.contact;
+    if (scene.uplift)
+        for (const ProfilePoint& p : sliding::uplift_profile(scene, scene_uplift_state(scene)).points)
+            base.pressures.push_back({p.distance, p.pressure});
+    const bool rubs = seam.interface.model == InterfaceModel::friction;
+    for (std::size_t i = 1; i + 1 < body.path.size(); ++i) {
+        LiftJoint face;
+        face.name = fmt::format("interface at {:.6g} m", body.path[i].x);
+        face.elevation = ground_level(ground_line(scene), body.path[i].x);
+        face.strength = strength_of(scene.contact, rubs ? seam.interface.friction : 0.0, rubs ? seam.interface.cohesion : 0.0);
+        body.interfaces.push_back(std::move(face));
+    }
+    add_face_levels(scene, seam, model, body);
+    return body;
+}
+
+} // namespace
+
+Scene with_seam_body(Scene scene)
+{
+    if (scene.planes.slides_on.empty()) return scene;
+    const Seam seam = named_seam(scene);
+    check(scene, seam);
+    const std::optional<double> angle =
+        seam.exit == SeamExit::wedge && seam.wedge->angles.size() == 1 ? std::optional(seam.wedge->angles.front())
+                                                                       : sliding::seam_plane(scene, seam, {}).angle;
+    scene.seam_body = body_of(scene, seam, angle);
+    return scene;
+}
+
+} // namespace damslip
