@@ -38,6 +38,7 @@ struct FeResult final : Result {
             {"stages", contact_stage_table(runs)},          {"run_out", run_out_table(runs)},
             {"energy", contact_energy_table(runs)},         {"counts", contact_count_table(runs)}, {"cracking", crack_table(runs)}};
         if (!ready.scene.lift_joints.empty()) list.emplace_back("lift_joints", contact_lift_table(runs, allowable()));
+        if (Table bonds = bond_table(runs); !bonds.rows.empty()) list.emplace_back("cracks", std::move(bonds));
         if (!ready.scene.anchors.empty()) list.emplace_back("anchors", contact_anchor_table(runs));
         return list;
     }

@@ -299,6 +299,7 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::
     if (Table events = contact_event_table(runs); !events.rows.empty())
         slip.parts.push_back(rows_part(std::move(events)));
     if (!in_.scene.lift_joints.empty()) slip.parts.push_back(rows_part(contact_lift_table(runs, allowable)));
+    if (Table bonds = bond_table(runs); !bonds.rows.empty()) slip.parts.push_back(rows_part(std::move(bonds)));
     if (!in_.scene.anchors.empty()) slip.parts.push_back(rows_part(contact_anchor_table(runs)));
     if (Table water = base_water_table(in_.scene, runs); !water.rows.empty())
         slip.parts.push_back(rows_part(std::move(water)));
@@ -499,6 +500,8 @@ FeAnswer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>
     if (!events.rows.empty()) j["events"] = json_of(events);
     j["run_out"] = json_of(run_out);
     if (has_lifts) j["lift_joints"] = json_of(lifts);
+    const Table bonds = bond_table(runs);
+    if (!bonds.rows.empty()) j["cracks"] = json_of(bonds);
     const Table anchors = contact_anchor_table(runs);
     if (!in.scene.anchors.empty()) j["anchors"] = json_of(anchors);
     j["counts"] = json_of(contact_count_table(runs));
@@ -519,6 +522,7 @@ FeAnswer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>
                          "largest_slip_mm=largest slip", "verdict"},
                         "largest_slip_mm"},
                         text(lifts) + "\n");
+    answer.text.add(bonds);
     if (!in.scene.anchors.empty()) answer.text += text(anchors) + "\n";
     for (const Table* shown : {&water, &flow}) answer.text.add(*shown);
     if (gives_way) answer.text += text(law) + "\n";
