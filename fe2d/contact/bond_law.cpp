@@ -66,6 +66,7 @@ BondLaw::BondLaw(std::vector<BondStrength> pairs, double first_damage)
     for (Index i = 0; i < m; ++i)
         if (!strength_[static_cast<std::size_t>(i)].any()) damage_[i] = 1.0;
     yield_.assign(strength_.size(), Yield::none);
+    at_.resize(strength_.size());
 }
 
 double BondLaw::Strain::size() const
@@ -123,6 +124,35 @@ double BondLaw::energy_of(Index pair, const Strain& e) const
     return b.tension_energy * square(e.across) + b.shear_energy * square(e.along);
 }
 
+bool BondLaw::by_tangent(Index pair) const
+{
+    return !static_ && !held_ && !plastic(pair);
+}
+
+double BondLaw::least_damage(Index pair) const
+{
+    return std::max(start_damage_[pair], smallest_damage_);
+}
+
+BondLaw::Pull BondLaw::pull(Index pair, const Strain& e) const
+{
+    const BondStrength& b = strength_[static_cast<std::size_t>(pair)];
+    const double size = e.size(), least = least_damage(pair), h = softness(std::max(size, least));
+    if (size >= 1.0 || least >= 1.0) return {};
+    Pull p{b.tension * h * e.across, b.shear * h * e.along, h, 0.0, 0.0, h};
+    if (size > least) { // it softens: h falls with ε
+        const double a = e.across / size, t = e.along / size;
+        p.nn -= a * a / size;
+        p.tt -= t * t / size;
+        p.nt = p.tn = -a * t / size;
+    }
+    p.nn *= b.tension / b.opening;
+    p.nt *= b.tension / b.slip;
+    p.tn *= b.shear / b.opening;
+    p.tt *= b.shear / b.slip;
+    return p;
+}
+
 void BondLaw::begin(const JointStart& start)
 {
     if (!held_) start_damage_ = damage_;
@@ -145,6 +175,10 @@ void BondLaw::add(JointTerms& terms) const
             terms.bonded[static_cast<std::size_t>(i)] = 1;
             continue;
         }
+        if (by_tangent(i)) {
+            add_tangent(i, terms);
+            continue;
+        }
         const double h = softness(damage_[i]);
         terms.diagonal[i] += h * b.tension / b.opening;
         const Yield yield = yield_[static_cast<std::size_t>(i)];
@@ -156,6 +190,21 @@ void BondLaw::add(JointTerms& terms) const
         terms.diagonal[m + i] += along;
         terms.force[m + i] += along * (slip_[i] - reference_[i]);
     }
+}
+
+void BondLaw::add_tangent(Index pair, JointTerms& terms) const
+{
+    const BondStrength& b = strength_[static_cast<std::size_t>(pair)];
+    const Index slip = damage_.size() + pair;
+    const Strain& e = at_[static_cast<std::size_t>(pair)];
+    const Pull p = pull(pair, e);
+    const double opening = e.across * b.opening, from_start = e.along * b.slip + reference_[pair] - slip_[pair];
+    terms.diagonal[pair] += p.nn;
+    terms.diagonal[slip] += p.tt;
+    terms.cross[pair] += p.nt;
+    terms.cross[slip] += p.tn;
+    terms.force[pair] += p.across - p.nn * opening - p.nt * from_start;
+    terms.force[slip] += p.along - p.tn * opening - p.tt * from_start;
 }
 
 /// Where κ = ε(κ) lies by the last two solutions, each pair by itself: the bond gives way by ε h(κ) + V ε = D, in its strength,
@@ -187,16 +236,47 @@ bool BondLaw::revise_yield(Index pair, const ContactSolution& solution)
     return true;
 }
 
+/// A pair begins to soften in the direction of what it carries.
+void BondLaw::break_first(Index pair, const ContactSolution& solution)
+{
+    const BondStrength& b = strength_[static_cast<std::size_t>(pair)];
+    const double normal = solution.force[pair], shear = solution.force[damage_.size() + pair];
+    const double tension = std::max(0.0, -normal),
+                 over = std::max(0.0, std::abs(shear) - b.friction * std::max(0.0, normal));
+    const double across = b.tension > 0.0 ? tension / b.tension : 0.0, along = b.shear > 0.0 ? over / b.shear : 0.0;
+    const double size = std::hypot(across, along);
+    damage_[pair] = smallest_damage_;
+    if (size > 0.0)
+        at_[static_cast<std::size_t>(pair)] = {smallest_damage_ * across / size,
+                                               std::copysign(smallest_damage_ * along / size, -shear)};
+}
+
+/// The bond fits where the line about the strains before gives its force at the new ones.
+JointFit BondLaw::revise_tangent(Index pair, const ContactSolution& solution)
+{
+    const BondStrength& b = strength_[static_cast<std::size_t>(pair)];
+    const Strain before = at_[static_cast<std::size_t>(pair)], now = strain(pair, solution);
+    const Pull was = pull(pair, before), is = pull(pair, now);
+    const double opening = (now.across - before.across) * b.opening, slip = (now.along - before.along) * b.slip;
+    at_[static_cast<std::size_t>(pair)] = now;
+    damage_[pair] = std::max(least_damage(pair), std::min(now.size(), 1.0));
+    const bool fits =
+        std::abs(was.across + was.nn * opening + was.nt * slip - is.across) <= step_damage_tolerance * b.tension &&
+        std::abs(was.along + was.tn * opening + was.tt * slip - is.along) <= step_damage_tolerance * b.shear;
+    return fits ? JointFit::fits : JointFit::changed;
+}
+
 JointFit BondLaw::revise_pair(Index pair, const ContactSolution& solution)
 {
     const double now = damage_[pair];
     if (now == 0.0) {
         if (first_damage(pair, solution) <= 1.0 + 1e-10) return JointFit::fits;
-        damage_[pair] = smallest_damage_;
+        break_first(pair, solution);
         return JointFit::changed;
     }
+    if (by_tangent(pair)) return revise_tangent(pair, solution);
     if (revise_yield(pair, solution)) return JointFit::changed;
-    const double least = std::max(start_damage_[pair], smallest_damage_);
+    const double least = least_damage(pair);
     const double strain_now = strain(pair, solution).size();
     double wanted = std::clamp(strain_now, least, 1.0);
     if (solutions_ > free_solutions) wanted = std::max(wanted, now);
@@ -251,6 +331,14 @@ bool BondLaw::unique(const ContactSolution& solution) const
     return left.llt().info() == Eigen::Success;
 }
 
+/// The next step begins with the tangent of a pair that softened, not with that of its unloading.
+void BondLaw::goes_on_softening(Index pair)
+{
+    constexpr double beyond = 1.0 + 1e-9;
+    Strain& e = at_[static_cast<std::size_t>(pair)];
+    e = {beyond * e.across, beyond * e.along};
+}
+
 void BondLaw::end(const ContactSolution& solution)
 {
     stored_ = 0.0;
@@ -261,6 +349,7 @@ void BondLaw::end(const ContactSolution& solution)
         const double size = e.size();
         const double mix = size > 0.0 ? energy_of(i, e) / square(size) : std::max(b.tension_energy, b.shear_energy);
         fracture_ += mix * (damage_[i] - start_damage_[i]);
+        if (damage_[i] > start_damage_[i]) goes_on_softening(i);
         if (plastic(i) && yield_[static_cast<std::size_t>(i)] != Yield::none) {
             const double limit = b.shear * (1.0 - damage_[i]) / initial_stiffness(i);
             const double slip = elastic_slip(i, solution), yielded = std::max(0.0, std::abs(slip) - limit);
@@ -302,6 +391,19 @@ void BondLaw::restore(const JointLawState& state)
     path_ = vector("bond_path_m");
     fracture_ = state.at("bond_fracture_J_m").front();
     stored_ = state.at("bond_stored_J_m").front();
+}
+
+BondLengths BondLaw::lengths(Index first, Index pairs) const
+{
+    BondLengths sum;
+    for (Index i = first; i < first + pairs; ++i) {
+        const BondStrength& b = strength_[static_cast<std::size_t>(i)];
+        if (!b.any()) continue;
+        sum.bonded += b.area;
+        if (damage_[i] > smallest_damage_) sum.damaged += b.area;
+        if (damage_[i] >= 1.0) sum.broken += b.area;
+    }
+    return sum;
 }
 
 double BondLaw::broken(Index first, Index pairs) const

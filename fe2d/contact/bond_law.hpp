@@ -22,6 +22,13 @@ struct BondStrength {
     bool any() const { return tension > 0.0 || shear > 0.0; }
 };
 
+/// How far a joint has cracked [m].
+struct BondLengths {
+    double bonded = 0.0;  ///< of the intact joint; 0: it has no bond
+    double damaged = 0.0; ///< has reached its strength and softened, broken length included
+    double broken = 0.0;  ///< carries nothing but friction any more
+};
+
 /// The bond of one pair. Without tensile strength opening breaks it as slip does, w_I = w_II, and takes no work across the
 /// joint; without cohesion the other way round.
 /// @param area  [m] @param friction  mu [-] @pre an energy for each strength
@@ -37,8 +44,10 @@ BondStrength bond_strength(double area, double friction, double cohesion, const 
 /// shear beyond friction reach √((-λ_n/f_tA)² + (|λ_t|/cA)²) = 1. Unloading goes to the origin; `plastic` unloads along
 /// the joint with the stiffness at first damage.
 ///
-/// A step finds the damage by fixed points κ = ε(x(κ)), pair by pair with a secant: each solution has a fixed Z. A step in
-/// time is too long where the bond softens faster than what is around unloads, V - diag(A f_t/w_I, A c/w_II) not positive
+/// A step in time finds x by Newton's iteration: each solution has the force of the law at the strains of the one before, and
+/// its tangent as Z, which along a straight path is -f_t A/w_I, the line of the law itself. The tangent of mixed modes is not
+/// symmetric unless G_I = G_II. Statics, where V may be singular, and plastic unloading find the damage by fixed points
+/// κ = ε(x(κ)), pair by pair with a secant. A step in time is too long where the bond softens faster than what is around unloads, V - diag(A f_t/w_I, A c/w_II) not positive
 /// definite on the pairs that break: there it may have more than one answer. V grows as 1/Δt².
 class BondLaw final : public JointLaw {
 public:
@@ -58,6 +67,8 @@ public:
 
     const std::vector<BondStrength>& strength() const { return strength_; }
     const Eigen::VectorXd& damage() const { return damage_; }    ///< κ of each pair: 0 intact, 1 broken [-]
+    /// Length of the bonded pairs among these, of those that have softened, and of those that are broken [m].
+    BondLengths lengths(Eigen::Index first, Eigen::Index pairs) const;
     double broken(Eigen::Index first, Eigen::Index pairs) const; ///< share of the bond's fracture work spent [-]
 
     /// For path following, where the caller decides which pair breaks next. How far a solution is beyond the damage of
@@ -78,7 +89,20 @@ private:
     /// Which way a bond of plastic unloading yields.
     enum class Yield : signed char { upstream = -1, none = 0, downstream = 1 };
 
+    /// What the bond of a pair holds against opening and slip [N/m], and its derivatives by them [N/m²].
+    struct Pull {
+        double across = 0.0, along = 0.0;
+        double nn = 0.0, nt = 0.0, tn = 0.0, tt = 0.0;
+    };
+
     Strain strain(Eigen::Index pair, const ContactSolution& solution) const;
+    bool by_tangent(Eigen::Index pair) const; ///< does the step at hand find it by Newton's iteration?
+    double least_damage(Eigen::Index pair) const; ///< of the step at hand, of a pair that is damaged
+    Pull pull(Eigen::Index pair, const Strain& strain) const;
+    void add_tangent(Eigen::Index pair, JointTerms& terms) const;
+    JointFit revise_tangent(Eigen::Index pair, const ContactSolution& solution);
+    void break_first(Eigen::Index pair, const ContactSolution& solution);
+    void goes_on_softening(Eigen::Index pair);
     double first_damage(Eigen::Index pair, const ContactSolution& solution) const;
     double energy_of(Eigen::Index pair, const Strain& strain) const;
     double guess(Eigen::Index pair, double wanted, double strain) const;
@@ -101,6 +125,7 @@ private:
     Eigen::VectorXd start_damage_;
     Eigen::VectorXd slip_; ///< at its start [m]
     std::vector<Yield> yield_;
+    std::vector<Strain> at_;                      ///< of the solution before: where the tangent is taken
     Eigen::VectorXd tried_damage_, tried_strain_; ///< of the solution before the last; strain < 0: none
     const Eigen::MatrixXd* stiffness_ = nullptr;  ///< V; null: not known
     int solutions_ = 0;

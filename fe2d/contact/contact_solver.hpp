@@ -69,8 +69,8 @@ public:
     /// @param solution  jumps of all gaps and impulses; on entry the states
     bool land(const ContactLaw& law, const Eigen::VectorXd& held_jump, ContactSolution& solution);
 
-    /// The owner of V has changed V_kk.
-    void diagonal_changed(Eigen::Index unknown) { system_.diagonal_changed(unknown); }
+    /// The owner of V has changed its row k within the pair.
+    void row_changed(Eigen::Index unknown) { system_.row_changed(unknown); }
 
     /// The owner of V has changed it anyhow.
     void stiffness_changed() { system_.stiffness_changed(); }

@@ -29,7 +29,7 @@ struct JointEnergy {
 ///
 /// so the law's own force on the upper side is -(r + Z x), and all that crosses the joint λ = λ_c - (r + Z x) = λ⁰ + V x.
 ///
-/// Z is symmetric and positive semi-definite. It is kept as sparse as the laws are: a dense Z would cost as much as a step.
+/// Z is symmetric and positive semi-definite, but for the tangent of a bond that softens. It is kept as sparse as the laws are: a dense Z would cost as much as a step.
 struct JointTerms {
     /// Part of Z on unknowns that follow each other, from `first` on [N/m²].
     struct Block {
@@ -45,6 +45,7 @@ struct JointTerms {
     };
 
     Eigen::VectorXd diagonal; ///< of Z, 2m [N/m²]; the blocks' and entries' own diagonals come on top
+    Eigen::VectorXd cross;    ///< of Z between the two unknowns of a pair, by row, 2m; need not be symmetric [N/m²]
     std::vector<Block> blocks;
     std::vector<Entry> entries;
     Eigen::VectorXd force;    ///< r, 2m [N/m]

@@ -38,6 +38,7 @@ void JointTerms::clear(const ContactLaw& plain)
 {
     const Index m = plain.pairs();
     diagonal.setZero(2 * m);
+    cross.setZero(2 * m);
     blocks.clear();
     entries.clear();
     force.setZero(2 * m);
@@ -47,7 +48,10 @@ void JointTerms::clear(const ContactLaw& plain)
 
 void JointTerms::add_stiffness(const VectorXd& x, VectorXd& f) const
 {
+    const Index m = x.size() / 2;
     f.array() += diagonal.array() * x.array();
+    f.head(m).array() += cross.head(m).array() * x.tail(m).array();
+    f.tail(m).array() += cross.tail(m).array() * x.head(m).array();
     for (const Block& block : blocks) {
         const Index n = block.stiffness->rows();
         if (!x.segment(block.first, n).isZero(0.0))
@@ -66,32 +70,34 @@ void JointTerms::subtract_stiffness(const VectorXd& x, VectorXd& f) const
 void JointLawSolver::fill()
 {
     *seen_ = *stiffness_;
+    const Index m = diagonal_.size() / 2;
     seen_->diagonal() += diagonal_;
+    seen_->diagonal(m) += cross_.head(m);
+    seen_->diagonal(-m) += cross_.tail(m);
     for (const JointTerms::Block& block : blocks_)
         seen_->block(block.first, block.first, block.stiffness->rows(), block.stiffness->cols()) += *block.stiffness;
     for (const JointTerms::Entry& entry : entries_) (*seen_)(entry.row, entry.column) += entry.value;
 }
 
-/// @returns false: so much has changed that a factor is better made anew
-bool JointLawSolver::change_diagonal(const VectorXd& diagonal)
+void JointLawSolver::change_pairs(const JointTerms& terms)
 {
-    const VectorXd by = diagonal - diagonal_;
-    if (3 * (by.array() != 0.0).count() > by.size()) return false;
-    for (Index k = 0; k < by.size(); ++k) {
-        if (by[k] == 0.0) continue;
-        (*seen_)(k, k) += by[k];
-        solver_->diagonal_changed(k);
+    const Index m = diagonal_.size() / 2;
+    for (Index k = 0; k < 2 * m; ++k) {
+        const Index other = k < m ? k + m : k - m;
+        if (terms.diagonal[k] == diagonal_[k] && terms.cross[k] == cross_[k]) continue;
+        (*seen_)(k, k) += terms.diagonal[k] - diagonal_[k];
+        (*seen_)(k, other) += terms.cross[k] - cross_[k];
+        solver_->row_changed(k);
     }
-    diagonal_ = diagonal;
-    return true;
+    diagonal_ = terms.diagonal;
+    cross_ = terms.cross;
 }
 
 void JointLawSolver::prepare(const JointTerms& terms)
 {
-    if (solver_ && blocks_ == terms.blocks && entries_ == terms.entries &&
-        (diagonal_ == terms.diagonal || change_diagonal(terms.diagonal)))
-        return;
+    if (solver_ && blocks_ == terms.blocks && entries_ == terms.entries) return change_pairs(terms);
     diagonal_ = terms.diagonal;
+    cross_ = terms.cross;
     blocks_ = terms.blocks;
     entries_ = terms.entries;
     if (!seen_) seen_ = std::make_shared<MatrixXd>();

@@ -11,7 +11,7 @@
 namespace damslip::fe2d {
 
 /// Solvers of contact problems V + Z, kept from one solution to the next: most differ in λ⁰ alone. Damage that grows changes
-/// the diagonal of Z, which the factor follows; water in the joint changes a block of it.
+/// Z within its pairs, which the factor follows; water in the joint changes a block of it.
 class JointLawSolver {
 public:
     JointLawSolver(std::shared_ptr<const Eigen::MatrixXd> stiffness, const ContactOptions& options);
@@ -24,12 +24,12 @@ public:
 
 private:
     void prepare(const JointTerms& terms);
-    bool change_diagonal(const Eigen::VectorXd& diagonal);
+    void change_pairs(const JointTerms& terms);
     void fill();
 
     std::shared_ptr<const Eigen::MatrixXd> stiffness_;
     ContactOptions options_;
-    Eigen::VectorXd diagonal_; ///< Z of the solver at hand
+    Eigen::VectorXd diagonal_, cross_; ///< Z of the solver at hand
     std::vector<JointTerms::Block> blocks_;
     std::vector<JointTerms::Entry> entries_;
     std::shared_ptr<Eigen::MatrixXd> seen_; ///< V + Z

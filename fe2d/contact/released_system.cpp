@@ -199,8 +199,11 @@ double ReleasedSystem::right_hand_side(Index unknown, const ContactLaw& law, con
 
 double ReleasedSystem::entry(Index unknown, const Row& row, Index column) const
 {
-    const double own = stiffness_(column, unknown); // V is symmetric: its columns are read in place of its rows
-    return row.coupling == 0.0 ? own : own + row.coupling * stiffness_(column, unknown - pairs_);
+    // V is symmetric but within a pair: its columns are read in place of its rows.
+    const auto value = [&](Index k) {
+        return std::abs(k - column) == pairs_ ? stiffness_(k, column) : stiffness_(column, k);
+    };
+    return row.coupling == 0.0 ? value(unknown) : value(unknown) + row.coupling * value(unknown - pairs_);
 }
 
 bool ReleasedSystem::set(const ContactStates& states, const ContactLaw& law)
@@ -308,13 +311,15 @@ bool ReleasedSystem::factorise_corner()
     return count == 0 || factorise(leading(corner_factor_, count), corner_pivots_, scale) > smallest_pivot;
 }
 
-void ReleasedSystem::diagonal_changed(Index unknown)
+void ReleasedSystem::row_changed(Index unknown)
 {
     const auto k = static_cast<std::size_t>(unknown);
     if (place_[k] >= 0) stale_[k] = 1;
     for (std::size_t j = borders_.size(); j-- > 0;)
         if (borders_[j].unknown == unknown) drop(j);
     settled_ = false;
+    if (unknown < pairs_ && rows_[k].released != rows_[k + static_cast<std::size_t>(pairs_)].released)
+        row_changed(unknown + pairs_); // a slipping pair: the row of its slip holds that of its opening
 }
 
 void ReleasedSystem::stiffness_changed()

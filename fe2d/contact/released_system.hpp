@@ -12,6 +12,8 @@ namespace damslip::fe2d {
 /// An open pair releases opening and slip, a slipping or pulled one its slip. Their rows are λ_n = 0, λ_t = 0 and
 /// λ_t + κ λ_n = -+c with κ = ±mu, so H = (rows of V) restricted to the released columns; sticking pairs cost nothing.
 ///
+/// V is symmetric but for the two entries between opening and slip of a pair, where a bond that softens need not be.
+///
 /// One set of states, the base, is factorised: H₀ = LU. Other sets are the base with borders (Bisschop & Meeraus 1977; Gill,
 /// Murray, Saunders & Wright 1984), one for each unknown whose row differs:
 ///
@@ -32,8 +34,8 @@ public:
     /// @returns false when the rows are not met to round-off, even after a fresh factorisation.
     bool solve(const ContactLaw& law, const Eigen::VectorXd& stuck_force, ContactSolution& solution);
 
-    /// V_kk has changed: the next set() puts a border for it.
-    void diagonal_changed(Eigen::Index unknown);
+    /// V_kk, or V between opening and slip of the pair in row k, has changed: the next set() puts a border for it.
+    void row_changed(Eigen::Index unknown);
 
     /// V has changed anyhow: a base is made anew when it is needed next.
     void stiffness_changed();

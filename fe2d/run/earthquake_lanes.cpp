@@ -408,6 +408,9 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
         lift.largest_slip = dynamics.largest_slips().of(static_cast<Index>(k + 1));
         lift.largest_opening = largest(h.largest_opening);
         lift.largest_rocking = largest(h.rocking);
+        const auto number = static_cast<Index>(k + 1);
+        if (const auto* bond = end.contact.laws.find<BondLaw>())
+            lift.bond = bond->lengths(planes.first(number), planes[number].pairs());
     }
     if (const auto* anchors = end.contact.laws.find<AnchorLaw>()) result.anchors = anchors->outcomes();
     result.state = {end.contact.force,  end.contact.opening,    end.contact.slip, {}, {},

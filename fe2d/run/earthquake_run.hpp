@@ -3,6 +3,7 @@
 #include "core/statistics.hpp"
 #include "core/status.hpp"
 #include "core/watch.hpp"
+#include "fe2d/contact/bond_law.hpp"
 #include "fe2d/rock/radiating_rock.hpp"
 #include "fe2d/run/base_water.hpp"
 #include "fe2d/run/crack_watch.hpp"
@@ -75,6 +76,7 @@ struct LiftResult {
     double slip_error = std::numeric_limits<double>::quiet_NaN(); ///< as RunResult::slip_error
     double largest_opening = 0.0;                                 ///< [m]
     double largest_rocking = 0.0;                                 ///< largest |rotation| [rad]
+    BondLengths bond;                                             ///< at the end
 };
 
 struct RunResult {

@@ -2,6 +2,7 @@
 
 #include "core/input_error.hpp"
 #include "fe2d/contact/anchor_law.hpp"
+#include "fe2d/contact/bond_law.hpp"
 #include "fe2d/run/base_water.hpp"
 
 #include <algorithm>
@@ -262,6 +263,11 @@ void HistoryRecorder::add_lifts(const VectorXd& force)
         lift.rocking.push_back(rotations_[static_cast<std::size_t>(k)].of(c.opening.segment(first, pairs)));
         lift.normal_force.push_back(force.segment(first, pairs).sum());
         lift.largest_opening.push_back(c.opening.segment(first, pairs).maxCoeff());
+        const auto* bond = c.laws.find<BondLaw>();
+        const BondLengths lengths = bond ? bond->lengths(first, pairs) : BondLengths{};
+        if (!(lengths.bonded > 0.0)) continue;
+        lift.damaged.push_back(lengths.damaged);
+        lift.broken.push_back(lengths.broken);
     }
 }
 

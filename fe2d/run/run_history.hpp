@@ -91,6 +91,7 @@ struct LiftHistory {
     std::vector<double> rocking;         ///< rotation of what is above, positive where the upstream end opens [rad]
     std::vector<double> normal_force;    ///< N' [N/m]
     std::vector<double> largest_opening; ///< [m]
+    std::vector<double> damaged, broken; ///< of its bond, BondLengths [m]; empty: it has none
 };
 
 /// One row of anchors over time.

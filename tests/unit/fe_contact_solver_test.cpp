@@ -181,7 +181,7 @@ TEST(FeContactSolver, a_changed_diagonal_is_followed)
         s.states[static_cast<std::size_t>(pair)] = static_cast<ContactState>(any(random));
         for (const Index unknown : {pair, static_cast<Index>(which(random)) + m}) {
             stiffness(unknown, unknown) *= factor(random);
-            kept.diagonal_changed(unknown);
+            kept.row_changed(unknown);
         }
         ASSERT_TRUE(kept.set(s.states, law) && kept.solve(law, stuck, s));
         ReleasedSystem fresh(stiffness);

@@ -439,6 +439,43 @@ Table contact_lift_table(const std::vector<ContactRun>& runs, const std::optiona
          "rocking and opening: largest on the way."});
 }
 
+Table bond_table(const std::vector<ContactRun>& runs)
+{
+    struct Row {
+        const ContactRun& run;
+        const fe2d::LiftResult& lift;
+        const fe2d::LiftHistory& history;
+    };
+    std::vector<Row> rows;
+    for (const ContactRun& r : runs)
+        for (std::size_t k = 0; k < r.fe.lifts.size(); ++k)
+            if (r.fe.lifts[k].bond.bonded > 0.0) rows.push_back({r, r.fe.lifts[k], r.fe.history.lifts[k]});
+    const auto first = [](const Row& r, const std::vector<double>& length, double least) {
+        const auto at = std::find_if(length.begin(), length.end(), [least](double x) { return x >= least && x > 0.0; });
+        return at == length.end() ? Cell() : Cell(r.run.fe.history.time[static_cast<std::size_t>(at - length.begin())]);
+    };
+    constexpr double all = 1.0 - 1e-9; // of the length: sums round
+    return table_of<Row>(
+        "Cracks along the lift joints",
+        {{{"record", "record"}, [](const Row& r) { return r.run.record; }},
+         {{"polarity", "polarity"}, [](const Row& r) { return r.run.polarity; }},
+         {{"plane", "plane"}, [](const Row& r) { return r.lift.plane; }},
+         {{"name", "name"}, [](const Row& r) { return r.lift.name; }},
+         {{"bonded_length_m", "length", "m", 4}, [](const Row& r) { return r.lift.bond.bonded; }},
+         {{"damaged_length_m", "damaged", "m", 4}, [](const Row& r) { return r.lift.bond.damaged; }},
+         {{"broken_length_m", "broken", "m", 4}, [](const Row& r) { return r.lift.bond.broken; }},
+         {{"first_damage_s", "first damage", "s", 4}, [=](const Row& r) { return first(r, r.history.damaged, 0.0); }},
+         {{"first_broken_s", "first broken", "s", 4}, [=](const Row& r) { return first(r, r.history.broken, 0.0); }},
+         {{"cut_s", "cut", "s", 4},
+          [=](const Row& r) { return first(r, r.history.broken, all * r.lift.bond.bonded); }},
+         {{"largest_opening_mm", "opening", "mm", 3}, [](const Row& r) { return 1e3 * r.lift.largest_opening; }},
+         {{"largest_slip_mm", "largest slip", "mm", 4}, [](const Row& r) { return 1e3 * r.lift.largest_slip; }},
+         {{"largest_rocking_rad", "rocking", "rad", 3}, [](const Row& r) { return r.lift.largest_rocking; }}},
+        rows,
+        {"damaged: has reached its strength and softened; broken: of it, what carries nothing but friction any more; cut: "
+         "broken from face to face."});
+}
+
 Table contact_anchor_table(const std::vector<ContactRun>& runs)
 {
     std::vector<AnchorRow> rows;

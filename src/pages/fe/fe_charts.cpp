@@ -436,6 +436,9 @@ std::vector<RowColumn> history_columns(const fe2d::RunHistory& h)
         all.push_back({{key + "rocking_rad", name + "rocking", "rad", 6}, of(lift.rocking)});
         all.push_back({{key + "normal_force_N_m", name + "N'", "N/m", 6}, of(lift.normal_force)});
         all.push_back({{key + "largest_opening_m", name + "opening", "m", 4}, of(lift.largest_opening)});
+        if (lift.damaged.empty()) continue;
+        all.push_back({{key + "damaged_m", name + "damaged", "m", 5}, of(lift.damaged)});
+        all.push_back({{key + "broken_m", name + "broken", "m", 5}, of(lift.broken)});
     }
     for (std::size_t k = 0; k < h.anchors.size(); ++k)
         all.push_back({{"anchor" + std::to_string(k + 1) + "_force_N_m", "N, " + h.anchors[k].name, "N/m", 6},

@@ -52,6 +52,7 @@ Table contact_run_table(const std::vector<ContactRun>& runs, const std::optional
 Table contact_slip_table(const std::vector<ContactRun>& runs); ///< slip along the base, rocking, opening
 /// Without rows where the scene has no lift joint.
 Table contact_lift_table(const std::vector<ContactRun>& runs, const std::optional<double>& allowable);
+Table bond_table(const std::vector<ContactRun>& runs); ///< how far bonded lift joints have cracked; empty: none has a bond
 /// What the anchors came to; without rows where the scene has none.
 Table contact_anchor_table(const std::vector<ContactRun>& runs);
 /// Of a sequence, one row for each event that was reached; without rows where there is none.

@@ -307,7 +307,7 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::
     Section slip{"Slip", {}, Fold::open};
     for (Table& table : std::vector{run_answer_table(runs, allowable), contact_slip_table(runs), run_out_table(runs),
                                     crack_table(runs), contact_event_table(runs), contact_lift_table(runs, allowable),
-                                    contact_anchor_table(runs), base_water_table(in_.scene, runs)})
+                                    bond_table(runs), contact_anchor_table(runs), base_water_table(in_.scene, runs)})
         if (!table.rows.empty()) slip.parts.push_back(rows_part(std::move(table)));
     if (!spread.empty()) slip.parts.push_back(Paragraph{spread});
     const bool slides = find(runs, [](const ContactRun& r) { return std::abs(r.fe.max_slip) >= no_slip; });
@@ -525,6 +525,7 @@ Answer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>& 
     answer.add("run_out", run_out_table(runs));
     answer.add("cracking", crack_table(runs));
     if (!joints_of(in.scene).empty()) answer.add("lift_joints", contact_lift_table(runs, allowable), {.brief = true});
+    add_known("cracks", bond_table(runs));
     if (!in.scene.anchors.empty()) answer.add("anchors", contact_anchor_table(runs));
     answer.add("counts", contact_count_table(runs), {.text = false});
     answer.add("energy", contact_energy_table(runs), {.text = false});
