@@ -159,7 +159,7 @@ void share_areas(Plane& plane)
     const Index m = plane.distance.size();
     plane.area.setZero(m);
     for (Index i = 0; i + 1 < m; ++i) {
-        const double half = 0.5 * (plane.distance[i + 1] - plane.distance[i]);
+        const double half = plane.share * 0.5 * (plane.distance[i + 1] - plane.distance[i]);
         plane.area[i] += half;
         plane.area[i + 1] += half;
     }
@@ -180,6 +180,7 @@ Plane plane_of(const Mesh& mesh)
     plane.tangent = Eigen::Vector2d(toe.x - heel.x, toe.y - heel.y).normalized();
     plane.normal = {-plane.tangent[1], plane.tangent[0]};
     plane.distance = as_vector(contact.distance);
+    plane.share = contact.share;
     share_areas(plane);
     return plane;
 }
@@ -188,6 +189,7 @@ Plane plane_of(const LiftPlane& lift)
 {
     Plane plane;
     plane.distance = as_vector(lift.distance);
+    plane.share = lift.share;
     share_areas(plane);
     return plane;
 }

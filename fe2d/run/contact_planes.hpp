@@ -13,11 +13,12 @@ struct Plane {
     Eigen::Vector2d normal{0.0, 1.0};  ///< up, out of the rock
     Eigen::Vector2d tangent{1.0, 0.0}; ///< downstream
     Eigen::VectorXd distance;          ///< of the pairs from the heel along the plane [m]
-    Eigen::VectorXd area;              ///< length of the base that belongs to a pair [m]; their sum is the base length
+    Eigen::VectorXd area; ///< of the base that belongs to a pair: length times share [m^2/m]; without thickness they sum to the length
+    double share = 1.0;   ///< of the width that is concrete [-]
 
     Eigen::Index pairs() const { return area.size(); }
-    double length() const { return area.sum(); }
-    Eigen::VectorXd weights() const { return area / length(); } ///< area weights, sum 1 [-]
+    double length() const { return area.sum() / share; }
+    Eigen::VectorXd weights() const { return area / area.sum(); } ///< area weights, sum 1 [-]
 
     // Of any number of nodes on the plane: the pairs, or the rock's whole line.
     Eigen::VectorXd to_plane(const Eigen::VectorXd& interface) const;

@@ -30,6 +30,7 @@ Strength::Strength(const Contact& base, const std::vector<LiftJoint>& joints, co
 {
     law_.separation = base.separation; // [contact] says it for all planes
     add(base, 0, planes.base().area);
+    base_area_ /= planes.base().share; // lengths of cracks
     for (Index k = 1; k < planes.count(); ++k)
         add(joints[static_cast<std::size_t>(k - 1)].strength, planes.first(k), planes[k].area);
 }
