@@ -100,8 +100,8 @@ SparseMatrix stiffness_matrix(const Mesh& mesh, const DofMap& dofs, const Materi
     for (const Region region : {Region::dam, Region::rock, Region::curtain, Region::block})
         d[static_cast<int>(region)] = plane_strain_matrix(materials.of(region));
     return assemble(mesh, dofs, [&](const Element& element, const Corners& corners) {
-        return elastic_stiffness(corners, element.size(), d[static_cast<int>(element.region)], materials.kind,
-                                 extra_nodes(element));
+        return elastic_stiffness(corners, element.size(), element.share * d[static_cast<int>(element.region)],
+                                 materials.kind, extra_nodes(element));
     });
 }
 
@@ -110,14 +110,14 @@ SparseMatrix dam_stiffness_matrix(const Mesh& mesh, const DofMap& dofs, const Ma
     const Eigen::Matrix3d d = plane_strain_matrix(materials.dam);
     return assemble(mesh, dofs, [&](const Element& element, const Corners& corners) -> ElementMatrix {
         if (element.region != Region::dam) return {};
-        return elastic_stiffness(corners, element.size(), d, materials.kind, extra_nodes(element));
+        return elastic_stiffness(corners, element.size(), element.share * d, materials.kind, extra_nodes(element));
     });
 }
 
 SparseMatrix mass_matrix(const Mesh& mesh, const DofMap& dofs, const Materials& materials, MassKind kind)
 {
     return assemble(mesh, dofs, [&](const Element& element, const Corners& corners) -> ElementMatrix {
-        const double density = materials.of(element.region).density;
+        const double density = element.share * materials.of(element.region).density;
         if (density == 0.0) return {};
         return elastic_mass(corners, element.size(), density, kind, extra_nodes(element));
     });
@@ -129,7 +129,7 @@ Eigen::VectorXd inertia_vector(const Mesh& mesh, const DofMap& dofs, const Mater
     // The shape functions sum to one, so M r = integral of rho N^T r: the same for the consistent matrix and row sums.
     // The lumped mass of quadratic elements is not the row sums.
     return assemble_vector(mesh, dofs, [&](const Element& element, const Corners& corners) -> ElementVector {
-        const double density = materials.of(element.region).density;
+        const double density = element.share * materials.of(element.region).density;
         if (density == 0.0) return {};
         const ExtraNodes extra = extra_nodes(element);
         if (kind == MassKind::lumped && extra.any())
@@ -143,7 +143,7 @@ Eigen::VectorXd gravity_load(const Mesh& mesh, const DofMap& dofs, const Materia
                              std::span<const Region> regions)
 {
     return assemble_vector(mesh, dofs, [&](const Element& element, const Corners& corners) -> ElementVector {
-        const double density = materials.of(element.region).density;
+        const double density = element.share * materials.of(element.region).density;
         if (density == 0.0 || std::find(regions.begin(), regions.end(), element.region) == regions.end()) return {};
         return body_force(corners, element.size(), {0.0, -density * gravity}, extra_nodes(element));
     });

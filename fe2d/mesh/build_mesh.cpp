@@ -92,7 +92,7 @@ DamLayout dam_layout(const Scene& scene, const Faces& faces, const MeshSizes& si
     for (double& s : layout.rows) s /= height;
     layout.rows.back() = 1.0;
     for (const Faces::Layer& layer : faces.layers)
-        (layer.tied ? layout.tied : layout.joints).push_back(index_of(layout.rows, layer.s));
+        if (!layer.step) (layer.tied ? layout.tied : layout.joints).push_back(index_of(layout.rows, layer.s));
     return layout;
 }
 

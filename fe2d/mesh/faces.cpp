@@ -2,6 +2,7 @@
 
 #include "core/input_error.hpp"
 #include "core/text.hpp"
+#include "scene/planes.hpp"
 #include "scene/section.hpp"
 
 #include <algorithm>
@@ -110,6 +111,14 @@ Layers joint_layers(const Scene& scene, const Polyline& upstream, const Polyline
     Layers layers;
     for (const LiftJoint& joint : scene.lift_joints) layers.push_back({0.0, joint.elevation});
     for (const LiftJoint& joint : scene.tied_lifts) layers.push_back({0.0, joint.elevation, true});
+    // A row of nodes at each step of the thickness, so that no element has two shares.
+    const Polyline& share = scene.section.thickness;
+    for (std::size_t i = 1; i < share.size(); ++i) {
+        const double y = share[i].x;
+        const bool taken = std::any_of(layers.begin(), layers.end(),
+                                       [y](const Faces::Layer& l) { return std::abs(l.level - y) < same_level; });
+        if (y == share[i - 1].x && y > low && y < high && !taken) layers.push_back({0.0, y, false, true});
+    }
     std::sort(layers.begin(), layers.end(), [](const auto& a, const auto& b) { return a.level < b.level; });
     for (Faces::Layer& layer : layers) {
         const double y = layer.level;

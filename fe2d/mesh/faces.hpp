@@ -18,6 +18,7 @@ struct Faces {
         double s = 0.0;     ///< its height parameter
         double level = 0.0; ///< above the heel [m]
         bool tied = false;  ///< of Scene::tied_lifts
+        bool step = false;  ///< of Section::thickness
     };
 
     Polyline upstream;         ///< heel to the upstream end of the crest, y strictly increasing

@@ -114,7 +114,7 @@ private:
                                         text(dam_.nodes[n]), off),
                             fmt::format("at most {:g} of the base: {:.3g} m", section_tolerance, tolerance_),
                             "mesh the section of the scene, or correct section");
-        const double wanted = area(scene_.section);
+        const double wanted = area(Section{scene_.section.polygon});
         if (std::abs(dam_.area - wanted) > section_tolerance * wanted)
             refuse_mesh(file_, 0,
                         fmt::format("the dam of the mesh has an area of {:.6g} m2, the scene's section {:.6g} m2.",

@@ -1,5 +1,7 @@
 #include "fe2d/mesh/mesh.hpp"
 
+#include "scene/section.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <map>
@@ -237,6 +239,21 @@ GmshFile export_mesh(const Mesh& mesh, BaseNodes base)
     out.add_line("ground", mesh.ground);
     out.add_surfaces();
     return std::move(out).file();
+}
+
+void set_shares(Mesh& mesh, const Section& section, const std::vector<LiftJoint>& lift_joints)
+{
+    if (section.thickness.empty()) return;
+    for (int e = 0; e < mesh.dam_element_count; ++e) {
+        Element& element = mesh.elements[static_cast<std::size_t>(e)];
+        const std::array<Point, 4> c = corners(mesh, element);
+        const auto [low, high] = std::minmax_element(c.begin(), c.begin() + element.size(),
+                                                     [](Point a, Point b) { return a.y < b.y; });
+        element.share = mean_share(section, low->y, high->y);
+    }
+    mesh.contact.share = base_share(section);
+    for (std::size_t i = 0; i < mesh.lifts.size(); ++i)
+        mesh.lifts[i].share = share_above(section, lift_joints[i].elevation);
 }
 
 } // namespace damslip::fe2d

@@ -13,6 +13,11 @@
 /// of the base exists twice, once on the dam and once on the rock, at the same place unless the scene gives the rock an
 /// element size of its own there. Lift joints split the dam in the same way. Whether the two sides are tied, free or in
 /// contact is said by the degrees of freedom (assembly/dof_map.hpp), not by the mesh.
+namespace damslip {
+struct LiftJoint;
+struct Section;
+} // namespace damslip
+
 namespace damslip::fe2d {
 
 enum class Region : unsigned char {
@@ -43,6 +48,7 @@ struct Element {
     std::array<int, 4> mid{-1, -1, -1,
                            -1}; ///< node in the middle of the edge from corner i to the next; -1: linear edge
     int centre = -1;            ///< node at the centre of a quadrilateral; -1: none
+    double share = 1.0; ///< mean of Section::thickness over its height: factor on stiffness and mass, not on stresses [-]
 
     int size() const { return nodes[3] < 0 ? 3 : 4; } ///< corners
     bool linear() const { return mid[0] < 0 && mid[1] < 0 && mid[2] < 0 && mid[3] < 0 && centre < 0; }
@@ -67,6 +73,7 @@ struct ContactPlane {
     std::vector<double> distance; ///< of the dam's nodes from the heel, along the plane [m]
     std::vector<double> rock_node_distance; ///< of rock_nodes; `distance` itself if `matching` [m]
     bool matching = true;       ///< rock_nodes[i] lies where dam_nodes[i] does; otherwise only heel and toe coincide
+    double share = 1.0; ///< of the width that is concrete [-]
     std::vector<int> rock_line; ///< rock surface nodes of the whole plane: it goes on straight past heel and toe,
                                 ///< upstream to downstream
     std::vector<double>
@@ -79,6 +86,7 @@ struct LiftPlane {
     std::vector<int> lower_nodes; ///< of the dam below, upstream to downstream; of an interface from the ground down
     std::vector<int> upper_nodes; ///< of the block above, at the same places
     std::vector<double> distance; ///< of these nodes from the upstream face, along the joint [m]
+    double share = 1.0;           ///< of the width that is concrete [-]
     bool upright = false;         ///< an interface
     double beyond = 0.0; ///< from the last pair on to the bend of the path, where three bodies meet and no pair is [m]
 };
@@ -152,6 +160,9 @@ enum class BaseNodes {
     twice, ///< as the mesh has them: the dam's and the rock's
     shared ///< the dam's alone; a base whose sides match only
 };
+
+/// Sets the shares of dam elements, base and lift joints by Section::thickness.
+void set_shares(Mesh& mesh, const Section& section, const std::vector<LiftJoint>& lift_joints);
 
 /// A mesh with the physical groups that import_mesh asks for, in metres: surfaces "dam", "rock", "curtain"; lines "base" (the
 /// dam's edges), "upstream", "crest", "downstream", "floor", "ground", "rock-left", "rock-bottom", "rock-right". Node tags are

@@ -112,6 +112,7 @@ Model build_model_on(Mesh mesh, const Scene& scene, const ModelOptions& options)
     Model model;
     model.materials = materials_of(scene);
     model.mesh = std::move(mesh);
+    set_shares(model.mesh, scene.section, scene.lift_joints);
     check_facing(scene, model, options.base);
     model.dofs = displacement_dofs(model.mesh, options.base, options.edges);
     model.stiffness = stiffness_matrix(model.mesh, model.dofs, model.materials);

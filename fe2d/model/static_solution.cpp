@@ -3,6 +3,7 @@
 #include "core/input_error.hpp"
 #include "scene/planes.hpp"
 #include "scene/water.hpp"
+#include "scene/section.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -169,7 +170,7 @@ PressureProfile lift_water_profile(const Scene& scene, const LiftJoint& joint, d
         return profile;
     }
     if (joint.water == JointWater::none) return {};
-    const double unit_weight = water_unit_weight(scene);
+    const double unit_weight = water_unit_weight(scene) * share_above(scene.section, joint.elevation); // none between piers
     const double upstream = scene.reservoir ? std::max(0.0, scene.reservoir->level - joint.elevation) : 0.0;
     const double downstream = scene.tailwater ? std::max(0.0, scene.tailwater->level - joint.elevation) : 0.0;
     if (upstream == 0.0 && downstream == 0.0) return {};
@@ -261,8 +262,8 @@ Eigen::Matrix2Xd base_forces(const Model& model, const Eigen::VectorXd& displace
             const ElementNodes nodes = element.all();
             ElementVector ue(2 * nodes.count);
             for (int i = 0; i < nodes.count; ++i) ue.segment<2>(2 * i) = u.segment<2>(2 * nodes[i]);
-            return elastic_stiffness(c, element.size(), plane_strain_matrix(model.materials.dam), model.materials.kind,
-                                     extra_nodes(element)) *
+            return elastic_stiffness(c, element.size(), element.share * plane_strain_matrix(model.materials.dam),
+                                     model.materials.kind, extra_nodes(element)) *
                    ue;
         });
     const std::vector<int>& nodes = model.mesh.contact.dam_nodes;

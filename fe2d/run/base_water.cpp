@@ -1,5 +1,6 @@
 #include "fe2d/run/base_water.hpp"
 
+#include "core/input_error.hpp"
 #include "fe2d/run/contact_structure.hpp"
 #include "scene/section.hpp"
 #include "scene/water.hpp"
@@ -28,6 +29,11 @@ std::unique_ptr<CrackWater> base_water(const Scene& scene, const Plane& base, co
 {
     if (!scene.uplift || uplift.empty()) return nullptr;
     const JointWaterLaw& law = scene.uplift->water;
+    if (base.share != 1.0 && law.opening != OpeningWater::unchanged)
+        throw InputError(Diagnostic{scene.file.string(), 0, 0,
+                                    "section.thickness leaves the base a part of its width, with uplift.opening.",
+                                    "opening = \"unchanged\" by finite elements on such a base, or a base of share 1",
+                                    "write  opening = \"unchanged\" , or give the dam a foot of share 1"});
     const double weight = water_unit_weight(scene);
     const auto under = [&](const auto& level, const Point& end) {
         return level ? std::max(0.0, weight * (level->level - end.y)) : 0.0;

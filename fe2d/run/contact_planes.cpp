@@ -186,7 +186,7 @@ void share_areas(Plane& plane)
     const Index m = plane.distance.size();
     plane.area.setZero(m);
     for (Index i = 0; i + 1 < m; ++i) {
-        const double half = 0.5 * (plane.distance[i + 1] - plane.distance[i]);
+        const double half = plane.share * 0.5 * (plane.distance[i + 1] - plane.distance[i]);
         plane.area[i] += half;
         plane.area[i + 1] += half;
     }
@@ -226,6 +226,7 @@ Plane plane_of(const Mesh& mesh)
         share_areas(*mesh.seam, plane);
         plane.tangent = plane.turned.front();
     } else {
+        plane.share = contact.share;
         share_areas(plane);
         plane.tangent = Eigen::Vector2d(toe.x - heel.x, toe.y - heel.y).normalized();
     }
@@ -237,6 +238,7 @@ Plane plane_of(const LiftPlane& lift)
 {
     Plane plane;
     plane.distance = as_vector(lift.distance);
+    plane.share = lift.share;
     share_areas(plane);
     if (!lift.upright) return plane;
     plane.upright = true;

@@ -19,10 +19,11 @@ struct Plane {
     std::vector<Eigen::Vector2d> turned;  ///< tangents of the segments
     bool upright = false;                 ///< an interface: no weight rests on it
     Eigen::VectorXd distance;          ///< of the pairs from the heel along the plane [m]
-    Eigen::VectorXd area;              ///< length of the base that belongs to a pair [m]; their sum is the base length
+    Eigen::VectorXd area; ///< of the base that belongs to a pair: length times share [m^2/m]; without thickness they sum to the length
+    double share = 1.0;   ///< of the width that is concrete [-]
 
     Eigen::Index pairs() const { return area.size(); }
-    double length() const { return area.sum(); }
+    double length() const { return area.sum() / share; }
     /// What is above rests on all of it, in one direction.
     bool bears_alone() const { return !upright && segments.size() < 2; }
     Eigen::Index main_pairs() const { return segments.size() < 2 ? pairs() : segments[1]; } ///< of the first segment

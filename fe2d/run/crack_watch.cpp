@@ -3,6 +3,7 @@
 #include "fe2d/element/elastic.hpp"
 #include "fe2d/model/static_solution.hpp"
 #include "scene/joint_bond.hpp"
+#include "scene/section.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -86,7 +87,8 @@ void CrackLines::add_line(const Scene& scene, const ContactStructure& structure,
             continue;
         const double share = centre_of(mesh, element).y > lift.elevation ? 0.5 : -0.5;
         const ElementNodes all = element.all();
-        const ElementMatrix k = elastic_stiffness(corners(mesh, element), size, d, model.materials.kind, extra_nodes(element));
+        const ElementMatrix k =
+            elastic_stiffness(corners(mesh, element), size, element.share * d, model.materials.kind, extra_nodes(element));
         for (int i = 0; i < size; ++i) {
             const auto row = rows.find(element.nodes[static_cast<std::size_t>(i)]);
             if (row == rows.end()) continue;
@@ -98,7 +100,7 @@ void CrackLines::add_line(const Scene& scene, const ContactStructure& structure,
             }
         }
     }
-    LiftPlane line{nodes, nodes, {}};
+    LiftPlane line{nodes, nodes, {}, share_above(scene.section, lift.elevation)};
     for (const int n : nodes)
         line.distance.push_back(mesh.nodes[static_cast<std::size_t>(n)].x - mesh.nodes[static_cast<std::size_t>(nodes.front())].x);
     const Plane plane = plane_of(line);
@@ -113,7 +115,7 @@ void CrackLines::add_line(const Scene& scene, const ContactStructure& structure,
         PairOfLine pair;
         pair.area = plane.area[static_cast<Index>(i)];
         pair.distance = line.distance[i];
-        pair.water = pressure_at(water, pair.distance) * pair.area;
+        pair.water = pressure_at(water, pair.distance) * pair.area / plane.share; // the profile is per metre of dam
         pair.force.begin = static_cast<int>(node_.size());
         for (const auto& [node, values] : rows[nodes[i]]) {
             node_.push_back(node);

@@ -39,6 +39,7 @@ Strength::Strength(const Contact& base, const std::vector<LiftJoint>& joints, co
                     end = s + 1 < segments.size() ? planes.base().segments[s + 1] : base_area_.size();
         add(segments[s], first, base_area_.segment(first, end - first));
     }
+    base_area_ /= planes.base().share; // lengths of cracks
     for (Index k = 1; k < planes.count(); ++k)
         add(joints[static_cast<std::size_t>(k - 1)].strength, planes.first(k), planes[k].area);
 }

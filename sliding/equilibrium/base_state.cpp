@@ -16,7 +16,7 @@ BaseFrame base_frame(const Scene& scene)
     const Point a = heel(scene.section), b = toe(scene.section);
     const double length = base_length(scene.section);
     const Point t{(b.x - a.x) / length, (b.y - a.y) / length};
-    return {length, base_inclination(scene.section), t, {-t.y, t.x}};
+    return {length, base_inclination(scene.section), base_share(scene.section), t, {-t.y, t.x}};
 }
 
 BaseLoad base_load(const BaseFrame& frame, const Force& force)
@@ -133,10 +133,16 @@ PressureProfile without_new_crack(const BaseState& state, const Crack& crack)
     return out;
 }
 
-std::vector<Load> earthquake_loads(const Scene& scene, const AddedMassIntegral& water, double a_h, double a_v)
+std::vector<Load> earthquake_loads(const Scene& scene, const AddedMassIntegral& water, double a_h, double a_v,
+                                   const Polyline& profile)
 {
-    const double mass = dam_mass(scene);
-    const Point at = centroid(scene.section);
+    double mass = dam_mass(scene);
+    Point at = centroid(scene.section);
+    if (!profile.empty()) {
+        const SectionSums sums = section_sums(scene.section, profile);
+        mass = sums.area * scene.dam.density;
+        at = mass > 0.0 ? sums.centre() : at;
+    }
     std::vector<Load> loads;
     loads.push_back(
         {LoadKind::inertia, "inertia of the dam", {force_at(at, mass * a_h, 0.0), force_at(at, 0.0, -mass * a_v)}});
@@ -212,7 +218,7 @@ double bonded_length(const BaseState& before, const CrackedBase& base)
     const double length = before.frame.length;
     const Crack &a = before.base.crack, &b = base.crack;
     const double lost = a.side == b.side ? std::max(a.length, b.length) : a.length + b.length;
-    return std::max(0.0, length - lost);
+    return before.frame.share * std::max(0.0, length - lost);
 }
 
 namespace {
@@ -380,6 +386,7 @@ Scene scene_above(const Scene& scene, const LiftJoint& joint)
     part.section.polygon = part_above(scene.section.polygon, y);
     const double x = part.section.polygon.front().x;
     for (Point& p : part.section.polygon) p = {p.x - x, p.y - y};
+    for (Point& p : part.section.thickness) p.x -= y;
     part.contact = joint.strength;
     part.lift_joints.clear();
     part.combinations.clear();

@@ -18,6 +18,7 @@ namespace damslip::sliding {
 struct BaseFrame {
     double length = 0.0;      ///< [m]
     double inclination = 0.0; ///< theta [rad], positive: dips downstream
+    double share = 1.0;       ///< of the width that is concrete, Section::thickness [-]
     Point t, n;               ///< unit vectors: (cos, -sin), (sin, cos)
 };
 BaseFrame base_frame(const Scene& scene);
@@ -49,7 +50,7 @@ struct BaseState {
     CrackedBase base;                                                           ///< uplift, crack, N' and its position
     Crack opened;                                                               ///< as given
     double dowel_force = 0.0;                                                   ///< of grouted anchors [N/m]
-    double cohesive_length() const { return frame.length - base.crack.length; } ///< A' [m]
+    double cohesive_length() const { return frame.share * (frame.length - base.crack.length); } ///< A' [m^2/m]
 };
 
 /// Uplift (times the case's factor) for a crack, as the crack search wants it.
@@ -85,7 +86,9 @@ RigidBlock make_rigid_block(const Scene& scene, const BaseState& state, std::opt
 
 /// Loads of the ground acceleration (-a_h, +a_v) [m/s^2]: inertia (+m a_h, -m a_v) at the centroid and the added mass'
 /// force. a_h is positive upstream: it drives the dam downstream.
-std::vector<Load> earthquake_loads(const Scene& scene, const AddedMassIntegral& water, double a_h, double a_v);
+/// @param profile  factor on the inertia over the height, as Combination::k_profile
+std::vector<Load> earthquake_loads(const Scene& scene, const AddedMassIntegral& water, double a_h, double a_v,
+                                   const Polyline& profile = {});
 
 /// The base under static and earthquake loads together (`load`), from the static state `before`; see `evaluate` for the
 /// crack rules.
@@ -110,7 +113,7 @@ UpliftResultant uplift_of_empty_joint(const BaseState& before, Side opens);
 BaseState with_open_joint(const Scene& scene, const StaticCase& static_case, const BaseState& before, Side opens,
                           const SeepageProfile& seepage);
 
-/// Length still bonded [m]: neither in the static crack nor in the one under the earthquake.
+/// Area still bonded [m^2/m], the length times the share of the base: neither in the static crack nor in the one under the earthquake.
 double bonded_length(const BaseState& before, const CrackedBase& base);
 
 // How far the ground may accelerate before the dam is no longer a block that stands flat on its base.

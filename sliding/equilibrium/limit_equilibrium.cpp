@@ -141,7 +141,8 @@ struct Strength {
 Strength peak(const Scene& scene, const Combination& c)
 {
     const Contact& contact = scene.contact;
-    return {c.friction.value_or(FrictionOverSlip(contact).peak()), c.cohesion.value_or(contact.cohesion)};
+    return {c.friction.value_or(FrictionOverSlip(contact).peak()) / c.friction_divisor,
+            c.cohesion.value_or(contact.cohesion) / c.cohesion_divisor};
 }
 
 Strength residual(const Scene& scene, const Combination& c)
@@ -149,8 +150,9 @@ Strength residual(const Scene& scene, const Combination& c)
     const Contact& contact = scene.contact;
     const Strength from = peak(scene, c);
     Strength out{from.friction, contact.cohesion_lost_at_slip || c.residual_strength ? 0.0 : from.cohesion};
-    if (const FrictionOverSlip friction(contact); !friction.constant()) out.friction = friction.residual();
-    if (c.residual_strength && c.friction) out.friction = *c.friction;
+    if (const FrictionOverSlip friction(contact); !friction.constant())
+        out.friction = friction.residual() / c.friction_divisor;
+    if (c.residual_strength && c.friction) out.friction = from.friction;
     return out;
 }
 
@@ -258,7 +260,7 @@ void base_stresses(Equilibrium& e)
         return;
     }
     const double start = base.compressed_side == Side::toe ? e.frame.length - length : 0.0;
-    const double mean = base.effective_normal / length;
+    const double mean = base.effective_normal / (length * e.frame.share);
     const double lever = (base.resultant_distance - start) / length - 0.5;
     e.heel_stress = mean * (1.0 - 6.0 * lever);
     e.toe_stress = mean * (1.0 + 6.0 * lever);
@@ -320,7 +322,7 @@ void add_notes(Equilibrium& e)
         e.notes.push_back(
             fmt::format("cracked through: what is left, {:.3g} m of {:.4g} m, would be pressed by {:.3g} MPa",
                         e.base.compressed_length, e.frame.length,
-                        2.0 * e.base.effective_normal / e.base.compressed_length / units::MPa));
+                        2.0 * e.base.effective_normal / (e.base.compressed_length * e.frame.share) / units::MPa));
     if (e.crack_rule == CrackRule::none && std::min(e.heel_stress, e.toe_stress) < 0.0)
         e.notes.push_back("tension across the base, no crack considered");
     if (e.sliding_factor < 1.0) e.notes.push_back("slides: the shear exceeds the strength");
@@ -349,7 +351,7 @@ Equilibrium evaluate(const Scene& scene, const Combination& c, const Requirement
     e.loads = before.loads;
     e.base = before.base;
     if (seismic(c))
-        for (Load& load : earthquake_loads(scene, water, a_h, a_v)) e.loads.push_back(std::move(load));
+        for (Load& load : earthquake_loads(scene, water, a_h, a_v, c.k_profile)) e.loads.push_back(std::move(load));
     e.load = resultant(e.loads);
     if (seismic(c)) e.base = shaken_base(scene, static_case, before, e.load, options.seepage);
     e.base.effective_normal = without_round_off(e.base.effective_normal, e);

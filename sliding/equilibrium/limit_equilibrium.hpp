@@ -63,7 +63,7 @@ struct Equilibrium {
     std::vector<Load> loads;      ///< inertia and hydrodynamic force included, uplift not
     Force load;                   ///< their sum
     CrackedBase base;             ///< uplift, crack, N' and its position
-    double cohesive_length = 0.0; ///< A' [m]
+    double cohesive_length = 0.0; ///< A' [m^2/m], the length of a base without thickness
 
     double shear = 0.0;        ///< T along the base, what anchors carry of it taken off [N/m]
     double anchor_force = 0.0; ///< sum of N of the anchors through the base, each P₀ or f_y A as it says [N/m]
@@ -95,7 +95,7 @@ struct Equilibrium {
 /// - Static loads with the combination's levels and factors; water_factor covers reservoir, tailwater and crest water;
 /// hydrodynamic
 ///   force and inertia are not factored.
-/// - k_h, k_v: inertia (+m a_h, -m a_v) at the centroid and the added mass' force -M^w a_g, a_g = (-a_h, +a_v).
+/// - k_h, k_v: inertia (+m a_h, -m a_v) at the centroid (by k_profile its own share at each height) and the added mass' force -M^w a_g, a_g = (-a_h, +a_v).
 /// - Crack rule with an earthquake (k_h or k_v not 0): `none` no crack; `static` the crack of the static loads, no
 /// further opening;
 ///   `seismic-zero` no water pressure in what the earthquake opens (USBR 1987), `seismic-unchanged` pressure as before

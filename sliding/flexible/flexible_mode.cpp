@@ -35,18 +35,31 @@ ModeState Oscillator::after(const ModeState& now, double p0, double p1, double h
 
 namespace {
 
-/// Integral of y^p over the part of the polygon above y = 0: by Green the integrals of x y^p dy along the edges, closed for
-/// straight ones.
-double power_moment(const Polyline& polygon, double p)
+/// Integral of y^p over the part of the polygon between two levels, 0 <= low: by Green the integrals of x y^p dy along the edges,
+/// closed for straight ones.
+double power_moment(const Polyline& polygon, double p, double low, double high)
 {
     double sum = 0.0;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         Point a = polygon[i], b = polygon[(i + 1) % polygon.size()];
         if (a.y == b.y || (a.y <= 0.0 && b.y <= 0.0)) continue;
         const double slope = (b.x - a.x) / (b.y - a.y), x0 = a.x - slope * a.y; // x = x0 + slope y
-        const double from = std::max(a.y, 0.0), to = std::max(b.y, 0.0);
+        const double from = std::clamp(a.y, low, high), to = std::clamp(b.y, low, high);
         sum += x0 * (std::pow(to, p + 1) - std::pow(from, p + 1)) / (p + 1) +
                slope * (std::pow(to, p + 2) - std::pow(from, p + 2)) / (p + 2);
+    }
+    return sum;
+}
+
+/// The same of the concrete of a section.
+double power_moment(const Section& section, double p)
+{
+    double sum = 0.0;
+    for (const ShareBand& band : share_bands(section.thickness)) {
+        const double low = std::max(0.0, band.from), high = band.to;
+        if (!(high > low)) continue;
+        sum += band.constant * power_moment(section.polygon, p, low, high);
+        if (band.slope != 0.0) sum += band.slope * power_moment(section.polygon, p + 1, low, high);
     }
     return sum;
 }
@@ -85,8 +98,8 @@ ModalSums power_shape(const Scene& scene, double exponent)
 {
     const double height = crest_level(scene.section), density = scene.dam.density;
     ModalSums sums;
-    sums.load = density * power_moment(scene.section.polygon, exponent) / std::pow(height, exponent);
-    sums.mass = density * power_moment(scene.section.polygon, 2 * exponent) / std::pow(height, 2 * exponent);
+    sums.load = density * power_moment(scene.section, exponent) / std::pow(height, exponent);
+    sums.mass = density * power_moment(scene.section, 2 * exponent) / std::pow(height, 2 * exponent);
     sums.total = density * area(scene.section);
     add_water(scene, exponent, height, sums);
     return sums;

@@ -47,7 +47,7 @@ double table_value(const std::vector<Point>& table, double x)
 /// zero with cos(phi), so the quotient stays finite: 0.73 2/pi at phi = 90 deg.
 double zangar_coefficient(const AddedMass& method, double phi)
 {
-    const bool normal = method.inclined_face == InclinedFaceRule::normal_component;
+    const bool normal = method.inclined_face != InclinedFaceRule::printed;
     const double leaning = std::max(phi, 0.0);
     if (method.zangar_table.empty()) {
         const double rest = right_angle - leaning; // angle from the horizontal
@@ -79,7 +79,7 @@ double goldgruber(const AddedMass& method, double zeta, double phi)
     // With y/h = 1 - zeta the cosine is sin((pi/2) zeta/(1 - peak)): exact near the surface.
     const double shape = std::sin(right_angle * zeta / (1.0 - peak));
     const double value = 0.707 * (1.0 - 0.011 * degrees) * std::pow(std::max(shape, 0.0), 0.6 + 0.005 * degrees);
-    return method.inclined_face == InclinedFaceRule::normal_component ? value / std::max(std::cos(phi), 1e-6) : value;
+    return method.inclined_face != InclinedFaceRule::printed ? value / std::max(std::cos(phi), 1e-6) : value;
 }
 
 } // namespace

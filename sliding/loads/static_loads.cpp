@@ -69,6 +69,30 @@ bool gates_shut(const Scene& scene, const LoadCase& load_case)
     return scene.gate && !load_case.gates_open;
 }
 
+/// The share of hydrostatic_load() that meets the concrete of a section with a thickness: what piers carry between open gates.
+FaceLoad load_on_piers(const Section& section, const Polyline& face, double level, double unit_weight)
+{
+    FaceLoad load;
+    for (std::size_t i = 0; i + 1 < face.size(); ++i) {
+        const Point a = face[i], b = face[i + 1];
+        if (a.y == b.y) continue;
+        const double lean = (b.x - a.x) / (b.y - a.y), rises = b.y > a.y ? 1.0 : -1.0;
+        for (const ShareBand& band : share_bands(section.thickness)) {
+            const double low = std::max(band.from, std::min(a.y, b.y)),
+                         high = std::min({band.to, level, std::max(a.y, b.y)});
+            if (!(high > low)) continue;
+            for (const double place : {-std::sqrt(0.6), 0.0, std::sqrt(0.6)}) { // Gauss: exact for p, share and arm
+                const double y = 0.5 * (low + high) + 0.5 * place * (high - low), x = a.x + lean * (y - a.y);
+                const double weight = 0.5 * (high - low) * rises * (place == 0.0 ? 8.0 / 9.0 : 5.0 / 9.0);
+                const double p = unit_weight * (level - y) * band.at(y) * weight;
+                load.horizontal += force_at({x, y}, p, 0.0);
+                load.vertical += force_at({x, y}, 0.0, -p * lean);
+            }
+        }
+    }
+    return load;
+}
+
 /// Water standing on the flat crest, from the downstream to the upstream end of the crest.
 FaceLoad crest_water(const Scene& scene, const LoadCase& load_case, double unit_weight)
 {
@@ -113,8 +137,12 @@ std::vector<Load> static_loads(const Scene& scene, const LoadCase& load_case)
         if (load.total() != Force{}) loads.push_back({kind, name, scaled(load_case.water_factor, load)});
     };
     if (const auto level = load_case.reservoir_level)
-        add_water(LoadKind::reservoir, "reservoir", hydrostatic_load(upstream, DamSide::right, *level, unit_weight));
-    if (const auto level = load_case.reservoir_level; level && gates_shut(scene, load_case)) {
+        add_water(LoadKind::reservoir, "reservoir",
+                  load_case.gates_open && !scene.section.thickness.empty()
+                      ? load_on_piers(scene.section, upstream, *level, unit_weight)
+                      : hydrostatic_load(upstream, DamSide::right, *level, unit_weight));
+    if (const auto level = load_case.reservoir_level;
+        level && gates_shut(scene, load_case) && scene.gate->top > upstream.back().y) {
         const Point sill = upstream.back();
         add_water(LoadKind::reservoir, "gates",
                   hydrostatic_load({sill, {sill.x, scene.gate->top}}, DamSide::right, *level, unit_weight));

@@ -38,6 +38,8 @@ MovedPart moved_part(const Scene& scene, const Scene& part, double elevation, co
         for (const Point p : polygon) levels.push_back(p.y);
         if (scene.lifts)
             for (const Point p : scene.lifts->points) levels.push_back(p.x - elevation);
+        for (const Point p : part.section.thickness)
+            if (p.x < crest_level(part.section)) levels.push_back(p.x);
         std::sort(levels.begin(), levels.end());
         constexpr int parts = 8;
         double x = 0.0, y = 0.0;
@@ -55,8 +57,8 @@ MovedPart moved_part(const Scene& scene, const Scene& part, double elevation, co
                         left = std::min(left, at), right = std::max(right, at);
                     }
                     if (!(right > left)) continue;
-                    const double mass =
-                        0.5 * weight * step * scene.dam.density * (right - left) * share(level + elevation);
+                    const double mass = 0.5 * weight * step * scene.dam.density * (right - left) *
+                                        share_above(part.section, level) * share(level + elevation);
                     moved.mass += mass;
                     x += mass * 0.5 * (left + right);
                     y += mass * level;
@@ -115,7 +117,7 @@ LiftState lift_state(const Scene& part, const LiftJoint& joint, const MovedPart&
     LiftState state;
     const double length = before.frame.length;
     state.base = uncracked_base(base_load(before.frame, load), length, before.base.profile);
-    const double mean = state.base.effective_normal / length;
+    const double width = before.frame.share, mean = state.base.effective_normal / (length * width);
     const double bending = 6.0 * mean * (0.5 - state.base.resultant_distance / length);
     state.heel_stress = mean + bending;
     state.toe_stress = mean - bending;
@@ -131,7 +133,7 @@ LiftState lift_state(const Scene& part, const LiftJoint& joint, const MovedPart&
     state.shear = shear(before.frame, load);
     const FrictionOverSlip friction(joint.strength);
     const bool through = state.base.status == CrackStatus::through || state.base.status == CrackStatus::open;
-    const double bonded = through ? 0.0 : length - state.base.crack.length;
+    const double bonded = through ? 0.0 : width * (length - state.base.crack.length);
     const auto over_shear = [&](double mu, double cohesion) {
         return (cohesion * bonded + mu * std::max(0.0, state.normal)) / std::abs(state.shear);
     };
@@ -142,7 +144,7 @@ LiftState lift_state(const Scene& part, const LiftJoint& joint, const MovedPart&
     // Along the faces: σ sec²φ - p tan²φ with the total stress of the beam and the water on the face.
     const auto along_face = [&](double effective, double level, double tangent, double end) {
         const double water = std::max(0.0, level) * water_unit_weight(part);
-        const double total = effective + pressure_at(before.base.profile, end), square = tangent * tangent;
+        const double total = effective + pressure_at(before.base.profile, end) / width, square = tangent * tangent;
         return total * (1.0 + square) - water * square;
     };
     state.upstream_face_stress = along_face(state.heel_stress, part.reservoir ? part.reservoir->level : 0.0,

@@ -88,7 +88,7 @@ RockingBlock make_rocking_block(const Scene& scene, const BaseState& state, cons
     block.force_n = -(e.normal.constant + rigid.uplift);
     block.moment = -moment_about(state.load, from);
     block.virial = virial(scene, state.loads) - (state.load.x * from.x + state.load.y * from.y);
-    block.cohesion = rigid.cohesion_force > 0.0 ? scene.contact.cohesion : 0.0;
+    block.cohesion = rigid.cohesion_force > 0.0 ? frame.share * scene.contact.cohesion : 0.0; // per metre of dam
     block.crack = state.base.crack;
     for (const SlipStage& stage : stages)
         block.stages.push_back({stage, uplift_distance(later && stage.block.uplift != rigid.uplift ? *later : state)});

@@ -192,6 +192,9 @@ PressureProfile uplift_profile(const Scene& scene, const UpliftState& state, con
         for (const ProfilePoint& p : uncracked_part(scene, state, base, crack, seepage))
             if (profile.points.empty() || profile.points.back() != p) profile.points.push_back(p);
     if (crack.side == Side::toe) mirror(profile.points, length);
+    // Per metre of dam: there is no joint between piers or buttresses.
+    if (const double share = base_share(scene.section); share != 1.0)
+        for (ProfilePoint& p : profile.points) p.pressure *= share;
     return profile;
 }
 

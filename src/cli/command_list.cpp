@@ -15,6 +15,7 @@ Command fragility_command();
 Command worker_command();
 Command fe_command();
 Command modes_command();
+Command calibrate_command();
 Command explain_command();
 Command accuracy_command();
 Command record_command();
@@ -65,6 +66,7 @@ std::span<const Command> commands()
                  study_row,
                  fe_command,
                  modes_command,
+                 calibrate_command,
                  mesh_row,
                  explain_command,
                  accuracy_command,

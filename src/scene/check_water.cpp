@@ -106,7 +106,9 @@ void check_forces(const Scene& s, Findings& f)
 /// Whether gates hold a level above the crest or it flows over the dam is never assumed.
 void check_level(const Scene& s, double level, bool gates_open, const std::string& key, Findings& f)
 {
-    const double crest = upstream_face(s.section).back().y;
+    const double top = upstream_face(s.section).back().y;
+    const bool between = s.gate && !gates_open && s.gate->top <= top; // piers in the outline
+    const double crest = between ? s.gate->top : top;
     if (!(level > crest * (1 + 1e-12)) || s.section.rock_slope || s.reservoir->overtopped || (s.gate && gates_open))
         return;
     if (s.gate && level <= s.gate->top * (1 + 1e-12)) return;
@@ -133,7 +135,9 @@ void check_gate(const Scene& s, Findings& f)
         if (!s.reservoir || s.reservoir->overtopped || s.section.rock_slope)
             f.wrong("gate", "[gate] without a [reservoir] whose water it holds.",
                     "[reservoir] without overtopped = true, of a dam", "delete [gate] or overtopped");
-        if (!(s.gate->top > face.back().y) || !(downstream_face(s.section).back().x > face.back().x))
+        const bool between_piers = mean_share(s.section, s.gate->top * (1.0 - 1e-9), s.gate->top) < 1.0;
+        if ((!(s.gate->top > face.back().y) && !between_piers) ||
+            !(downstream_face(s.section).back().x > face.back().x))
             f.wrong("gate.top",
                     fmt::format("{} does not stand on the crest, which is at {} m.", value("gate.top_m", s.gate->top),
                                 shortest(face.back().y)),

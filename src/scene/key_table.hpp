@@ -129,6 +129,7 @@ struct SectionInput {
     std::vector<Point> polygon;
     std::optional<double> height, base, crest, neck, upstream_slope, upstream_slope_height, base_inclination;
     std::optional<double> slope_height, face_dip, plane_dip, crack_distance, upper_dip; ///< of a rock slope
+    std::vector<Point> thickness;
 };
 
 /// The whole table. `section` receives what [section] says; it must outlive the use of the groups.

@@ -230,6 +230,13 @@ const std::array left_out{
                        s.added_mass.formula == AddedMassFormula::westergaard;
             },
             "it has no period; its water is incompressible"},
+    LeftOut{finite_elements, "added_mass.inclined_face = \"horizontal\"",
+            [](const Scene& s) {
+                const Polyline face = upstream_face(s.section);
+                return s.reservoir && s.added_mass.inclined_face == InclinedFaceRule::horizontal &&
+                       face.front().x != face.back().x;
+            },
+            "their water pushes along the normal of the face"},
     LeftOut{finite_elements, "[lifts]", [](const Scene& s) { return s.lifts.has_value(); },
             "their dam is tied there; `fe` and `assess` let them slide"},
     LeftOut{finite_elements, "[[seam]]", [](const Scene& s) { return !s.seams.empty() && s.planes.slides_on.empty(); },

@@ -45,11 +45,17 @@ KeyGroup section_group(SectionInput& input)
                 "4", at(&S::crack_distance)),
          number("upper_dip", angle, Range::inside(-45, 45), "0",
                 "rock slope: dip of the ground behind the crest, positive: it falls towards the crest", "5",
-                at(&S::upper_dip))},
+                at(&S::upper_dip)),
+         pairs("thickness", none, none, Range::half_open(0, 1), "1 (solid)",
+               "share of the monolith's width that is concrete, over the height: [metres above the heel, share], linear in "
+               "between, an elevation given twice is a step; piers, openings, buttresses. It is in weight, inertia, stiffness "
+               "and in the area of joints; water acts on the full width of the outline, but where gates are open",
+               "[[0, 1], [48, 1], [48, 0.3], [62, 0.3]]", at(&S::thickness))},
         [&input](Scene&) -> void* { return &input; },
         [&input](const Scene& s) {
             input = SectionInput{};
             input.polygon = s.section.polygon;
+            input.thickness = s.section.thickness;
             return std::vector<const void*>{&input};
         }};
     return g;
@@ -187,17 +193,21 @@ std::vector<KeyGroup> water_groups()
                     choice(&AddedMass::formula, formula_words())),
                period,
                word("inclined_face", "normal-component",
-                    "mass normal to a sloping face: m/cos(phi) (normal-component) or the printed m", "\"printed\"",
+                    "mass normal to a sloping face: m/cos(phi) (normal-component), the printed m, or of the first only the push "
+                    "downstream, without its vertical part (horizontal), as in codes and textbooks",
+                    "\"printed\"",
                     choice(&AddedMass::inclined_face,
                            std::vector<std::pair<std::string, InclinedFaceRule>>{
                                {"normal-component", InclinedFaceRule::normal_component},
-                               {"printed", InclinedFaceRule::printed}})),
+                               {"printed", InclinedFaceRule::printed},
+                               {"horizontal", InclinedFaceRule::horizontal}})),
                pairs("zangar_table", angle, none, Range::between(0, 2), "C_m = 0.73 (1 - phi/90 deg)",
                      "Zangar's C_m over the face angle from the vertical", "[[0, 0.73], [30, 0.54]]",
                      at(&AddedMass::zangar_table))}));
     groups.push_back(optional_group(
         "gate",
-        "Gates of a spillway, in the plane of the upstream face above its upper end: their thrust, a dry crest.",
+        "Gates of a spillway, in the plane of the upstream face above its upper end: their thrust, a dry crest. Where "
+        "section.thickness has the piers in the outline, they close the openings up to their top.",
         &Scene::gate,
         {number("top", length, Range::at_least(0), "required", "top of the gates above the heel", "63",
                 at(&Gate::top))}));
@@ -257,6 +267,14 @@ std::vector<Key> combination_keys()
                "seismic coefficient a_h / 9.80665 m/s2, positive drives downstream", "0.1", at(&C::k_h)),
         number("k_v", none, Range::between(-5, 5), "0",
                "seismic coefficient a_v / 9.80665 m/s2, positive up: makes the dam heavier", "-0.05", at(&C::k_v)),
+        pairs("k_profile", length, none, Range::between(0, 10), "1",
+              "factor on k_h and k_v over the height above the heel, for the dam's inertia; the water takes k_h. IS 1893: 1.5 "
+              "at the crest, 0 at the base",
+              "[[0, 0], [62.5, 1.5]]", at(&C::k_profile)),
+        number("friction_divisor", none, Range::at_least(1), "1",
+               "partial factor of safety that mu is divided by (IS 6512: F_phi)", "1.5", at(&C::friction_divisor)),
+        number("cohesion_divisor", none, Range::at_least(1), "1",
+               "partial factor of safety that the cohesion is divided by (IS 6512: F_c)", "3.6", at(&C::cohesion_divisor)),
         number("pga_fraction", none, Range::half_open(0, 2), "none",
                "in place of k_h: share of the largest PGA of the records, drives downstream", "0.67",
                at(&C::pga_fraction)),

@@ -35,13 +35,89 @@ Moments moments(const Polyline& p)
 
 } // namespace
 
+std::vector<ShareBand> share_bands(const Polyline& thickness)
+{
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (thickness.empty()) return {{-infinity, infinity, 1.0, 0.0}};
+    std::vector<ShareBand> bands{{-infinity, thickness.front().x, thickness.front().y, 0.0}};
+    for (std::size_t i = 1; i < thickness.size(); ++i) {
+        const Point a = thickness[i - 1], b = thickness[i];
+        if (b.x == a.x) continue;
+        const double slope = (b.y - a.y) / (b.x - a.x);
+        bands.push_back({a.x, b.x, a.y - slope * a.x, slope});
+    }
+    bands.push_back({thickness.back().x, infinity, thickness.back().y, 0.0});
+    return bands;
+}
+
+double share_above(const Section& section, double y)
+{
+    // A joint that has come to its own axes by a subtraction is at the step all the same.
+    const double above = y + 1e-9 * std::max(1.0, std::abs(crest_level(section)));
+    double share = 1.0;
+    for (const ShareBand& band : share_bands(section.thickness))
+        if (band.from <= above) share = band.at(std::max(y, band.from));
+    return share;
+}
+
+double mean_share(const Section& section, double from, double to)
+{
+    if (section.thickness.empty()) return 1.0;
+    if (!(to > from)) return share_above(section, from);
+    double sum = 0.0;
+    for (const ShareBand& band : share_bands(section.thickness)) {
+        const double low = std::max(from, band.from), high = std::min(to, band.to);
+        if (high > low) sum += band.at(0.5 * (low + high)) * (high - low);
+    }
+    return sum / (to - from);
+}
+
+double base_share(const Section& section)
+{
+    return section.thickness.empty() ? 1.0 : share_above(section, std::max(heel(section).y, toe(section).y));
+}
+
+SectionSums section_sums(const Section& section, const Polyline& factor)
+{
+    // By Green: integrals along the sides, each cut where a table bends; four points of Gauss are exact there.
+    constexpr std::pair<double, double> gauss[]{{-0.8611363115940526, 0.3478548451374538},
+                                                {-0.3399810435848563, 0.6521451548625461},
+                                                {0.3399810435848563, 0.6521451548625461},
+                                                {0.8611363115940526, 0.3478548451374538}};
+    const auto shares = share_bands(section.thickness), factors = share_bands(factor);
+    SectionSums sums;
+    const Polyline& p = section.polygon;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const Point a = p[i], b = p[(i + 1) % p.size()];
+        if (a.y == b.y) continue;
+        const auto [bottom, top] = std::minmax(a.y, b.y);
+        for (const ShareBand& share : shares)
+            for (const ShareBand& times : factors) {
+                const double low = std::max({bottom, share.from, times.from}), high = std::min({top, share.to, times.to});
+                if (!(high > low)) continue;
+                for (const auto& [place, weight] : gauss) {
+                    const double y = 0.5 * (low + high) + 0.5 * place * (high - low);
+                    const double x = a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
+                    const double dy = std::copysign(0.5 * weight * (high - low), b.y - a.y) * share.at(y) * times.at(y);
+                    sums.area += x * dy;
+                    sums.x += 0.5 * x * x * dy;
+                    sums.y += x * y * dy;
+                    sums.polar += (x * x * x / 3.0 + x * y * y) * dy;
+                }
+            }
+    }
+    return sums;
+}
+
 double area(const Section& section)
 {
+    if (!section.thickness.empty()) return section_sums(section).area;
     return 0.5 * moments(section.polygon).a2;
 }
 
 Point centroid(const Section& section)
 {
+    if (!section.thickness.empty()) return section_sums(section).centre();
     const Moments m = moments(section.polygon);
     return {m.x6 / (3.0 * m.a2), m.y6 / (3.0 * m.a2)};
 }
@@ -50,6 +126,10 @@ double polar_moment(const Section& section)
 {
     // About the centroid from the start, so that nothing cancels: triangles from there to each side.
     const Point c = centroid(section);
+    if (!section.thickness.empty()) {
+        const SectionSums sums = section_sums(section);
+        return sums.polar - sums.area * (c.x * c.x + c.y * c.y);
+    }
     const Polyline& p = section.polygon;
     double sum = 0.0;
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -303,6 +383,37 @@ Polyline polygon_of_rock_slope(const SectionInput& in, Findings& findings)
 
 } // namespace
 
+namespace {
+
+void check_thickness(const Section& section, Findings& findings)
+{
+    const Polyline& t = section.thickness;
+    const auto wrong = [&](std::string problem, std::string fix) {
+        findings.wrong("section.thickness", "section.thickness " + std::move(problem),
+                       "pairs [metres above the heel, share of the width, above 0 to 1], from the bottom up", std::move(fix));
+    };
+    if (section.rock_slope) return wrong("with a rock slope.", "delete it: a block of rock is solid");
+    for (std::size_t i = 1; i < t.size(); ++i) {
+        const bool third = i > 1 && t[i].x == t[i - 2].x;
+        if (t[i].x < t[i - 1].x || third)
+            return wrong(fmt::format("has the elevation {} at place {}.", shortest(t[i].x), i + 1),
+                         third ? "give an elevation twice at most: the share below a step, and above it"
+                               : "put the pairs in order of their elevations");
+    }
+    const auto [low, high] = std::minmax(heel(section).y, toe(section).y);
+    if (t.back().x < low || t.front().x > crest_level(section))
+        return wrong(fmt::format("has elevations from {} to {} m, beside a dam from {} to {} m.", shortest(t.front().x),
+                                 shortest(t.back().x), shortest(low), shortest(crest_level(section))),
+                     "elevations are metres above the heel");
+    if (high > low)
+        for (const ShareBand& band : share_bands(t))
+            if (band.from < high && band.to > low && (band.slope != 0.0 || band.constant != base_share(section)))
+                return wrong("changes over the inclined base.",
+                             fmt::format("begin above {} m, the higher end of the base", shortest(high)));
+}
+
+} // namespace
+
 Section make_section(const SectionInput& in, Findings& findings)
 {
     const bool dimensions = in.height || in.base || in.crest || in.neck || in.upstream_slope ||
@@ -326,6 +437,8 @@ Section make_section(const SectionInput& in, Findings& findings)
         if (section.polygon.empty()) return section;
     }
     if (!findings.any()) check_polygon(section.polygon, findings);
+    section.thickness = in.thickness;
+    if (!findings.any() && !in.thickness.empty()) check_thickness(section, findings);
     return section;
 }
 

@@ -40,6 +40,7 @@ COMMANDS = {
     "explain": "explain examples/own_dam.toml",
     "explain_ablate": "explain examples/own_dam.toml --ablate",
     "modes": "modes examples/own_dam.toml",
+    "calibrate": "calibrate examples/own_dam.toml --frequency 3.5 --second 9.8",
     "mesh": "mesh examples/own_dam.toml",
     "record_info": "record info records/data/rock_1.0_h.csv records/data/rock_1.0_v.csv",
     "record_spectrum": "record spectrum records/data/rock_1.0_h.csv",

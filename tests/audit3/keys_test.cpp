@@ -22,6 +22,7 @@ section.height_m : 30 | 31
 section.base_inclination_deg : 0 | 3
 section.neck_m : 0 | 4
 section.upstream_slope : 0 | 0.05
+section.thickness : none | [[0,1],[20,1],[20,0.5],[30,0.5]]
 dam.density_kg_m3 : 2400 | 2500
 dam.young_modulus_GPa : 20 | 30
 dam.poisson_ratio : 0.2 | 0.1
@@ -177,6 +178,9 @@ time.stepping : "uniform" | "adaptive" : time.substeps=-
 time.slip_tolerance : 0.01 | 0.2 : time.substeps=-
 contact.restitution : 0 | 0.5 : motion.scale=6; sliding.lift_off="ballistic"
 combination[].k_h : 0.05 | 0.1 : combination[].name="x"
+combination[].k_profile_m : [[0,1]] | [[0,0],[30,1.5]] : combination[].name="x"; combination[].k_h=0.1
+combination[].friction_divisor : 1 | 1.5 : combination[].name="x"
+combination[].cohesion_divisor : 1 | 3.6 : combination[].name="x"; contact.cohesion_kPa=50
 )";
 
 struct Case {

@@ -1,5 +1,6 @@
 #include "verification/cases/registry.hpp"
 #include "verification/external/slammer_set.hpp"
+#include "verification/external/textbook_dams.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -103,6 +104,7 @@ std::vector<Source> all_sources()
 {
     return {
         slammer_source(),
+        textbook_dams_source(),
         source("goldgruber-2015", "Goldgruber (2015), Nonlinear seismic modelling of concrete dams, Graz: chapter 4",
                "dam of 62.5 and 125 m on massless rock, Westergaard's added mass and acoustic water: frequencies and "
                "effective masses; `damslip study` has its 108 slips",

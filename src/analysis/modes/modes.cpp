@@ -58,13 +58,13 @@ std::optional<DampingOfModes> damping_of_modes(const Scene& scene, double total_
 }
 
 /// On the rock of the scene, as in tied runs; damped by Rayleigh's constants, where the scene damps at all.
-void find_transfer(const Ready& ready, ModesResult& m)
+void find_transfer(const Ready& ready, std::vector<double> frequencies, ModesResult& m)
 {
     fe2d::RayleighConstants damping{};
     if (m.damping && m.scene.damping.method != DampingMethod::none) damping = m.damping->rayleigh;
     const fe2d::FluidModel* water = m.water ? &*m.water : nullptr;
-    std::vector<double> frequencies;
-    for (int k = 1; k <= 200; ++k) frequencies.push_back(0.1 * k);
+    if (frequencies.empty())
+        for (int k = 1; k <= 200; ++k) frequencies.push_back(0.1 * k);
     if (rock_radiates(m.scene)) {
         const fe2d::Mesh& mesh = m.model.mesh;
         m.radiating =
@@ -127,7 +127,7 @@ ModesResult compute_modes(const Ready& ready, const ModesOptions& options)
     }
     if (options.damping || options.transfer)
         m.damping = damping_of_modes(m.scene, total_mass, m.modes, ready.records());
-    if (options.transfer) find_transfer(ready, m);
+    if (options.transfer) find_transfer(ready, options.frequencies, m);
     return m;
 }
 

@@ -49,6 +49,7 @@ struct ModesOptions {
     std::optional<int> count = {}; ///< modes; none: ten, with acoustic water all up to coupled_modes_to
     bool transfer = false;         ///< transfer functions, too
     bool damping = true;           ///< constants of damping, too; those of the records take many response spectra
+    std::vector<double> frequencies = {}; ///< of the transfer functions [Hz]; empty: 0.1 ... 20
 };
 
 /// The leading coupled modes as modes of a structure, for what knows no water; without shapes.

@@ -33,6 +33,7 @@ struct Plane {
     Point middle, t, n;  ///< t downstream, n up
     double length = 0.0; ///< [m]
     double level = 0.0;  ///< of its middle [m]
+    double share = 1.0;  ///< of the width that is concrete [-]
 };
 
 Plane base_plane(const Section& section)
@@ -40,7 +41,7 @@ Plane base_plane(const Section& section)
     const Point a = heel(section), b = toe(section);
     const double length = base_length(section);
     const Point t{(b.x - a.x) / length, (b.y - a.y) / length};
-    return {{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}, t, {-t.y, t.x}, length, 0.5 * (a.y + b.y)};
+    return {{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}, t, {-t.y, t.x}, length, 0.5 * (a.y + b.y), base_share(section)};
 }
 
 /// The base, and horizontal sections above it to the crest.
@@ -56,7 +57,7 @@ std::vector<Plane> planes_of(const Section& section)
             if (face[k].y <= y && y <= face[k + 1].y && face[k + 1].y > face[k].y)
                 x = face[k].x + (y - face[k].y) / (face[k + 1].y - face[k].y) * (face[k + 1].x - face[k].x);
         const double width = width_at_level(section, y);
-        planes.push_back({{x + 0.5 * width, y}, {1.0, 0.0}, {0.0, 1.0}, width, y});
+        planes.push_back({{x + 0.5 * width, y}, {1.0, 0.0}, {0.0, 1.0}, width, y, share_above(section, y)});
     }
     return planes;
 }
@@ -141,9 +142,10 @@ Eigen::VectorXd modal_values(const UnitResponses& unit, const Combining& combini
 }
 
 /// Vertical stress of the beam at an end of a plane, compression positive. @param end  -1: heel, upstream; +1: toe
-double edge_stress(const Resultant& r, double length, double end)
+double edge_stress(const Resultant& r, const Plane& plane, double end)
 {
-    return -r.across / length - end * 6.0 * r.moment / (length * length);
+    const double length = plane.length;
+    return (-r.across / length - end * 6.0 * r.moment / (length * length)) / plane.share;
 }
 
 LevelForce level_force(const UnitResponses& unit, const Combining& combining, std::size_t k)
@@ -156,7 +158,7 @@ LevelForce level_force(const UnitResponses& unit, const Combining& combining, st
     if (length > 0.0)
         for (const double end : {-1.0, 1.0})
             out.stress = std::max(out.stress, combining.peak(modal_values(unit, combining, k, [&](const Resultant& r) {
-                return edge_stress(r, length, end);
+                return edge_stress(r, unit.planes[k], end);
             })));
     return out;
 }
@@ -212,7 +214,7 @@ std::vector<ModeShare> mode_shares(const UnitResponses& unit, const ModalForces&
 
 void add_base(const UnitResponses& unit, const Combining& combining, double mass, double gravity, SpectrumDemand& row)
 {
-    const double length = unit.planes.front().length;
+    const Plane& plane = unit.planes.front();
     const auto base = [&](auto value) { return modal_values(unit, combining, 0, value); };
     const Eigen::VectorXd along = base([](const Resultant& r) { return r.along; });
     row.shear = combining.peak(along);
@@ -220,8 +222,8 @@ void add_base(const UnitResponses& unit, const Combining& combining, double mass
     row.moment = combining.peak(base([](const Resultant& r) { return r.moment; }));
     const Eigen::VectorXd down = base([](const Resultant& r) { return -r.across; });
     if (row.shear > 0.0) row.normal_with_shear = fe2d::combined_product(down, along, combining.cqc) / row.shear;
-    row.heel_stress = combining.peak(base([&](const Resultant& r) { return edge_stress(r, length, -1.0); }));
-    row.toe_stress = combining.peak(base([&](const Resultant& r) { return edge_stress(r, length, 1.0); }));
+    row.heel_stress = combining.peak(base([&](const Resultant& r) { return edge_stress(r, plane, -1.0); }));
+    row.toe_stress = combining.peak(base([&](const Resultant& r) { return edge_stress(r, plane, 1.0); }));
     row.crest = combining.peak(unit.crest.cwiseProduct(combining.scale));
     row.coefficient = row.shear / (mass * gravity);
     for (std::size_t k = 0; k < unit.planes.size(); ++k) row.levels.push_back(level_force(unit, combining, k));
@@ -270,7 +272,7 @@ struct ComponentPeaks {
 
 ComponentPeaks component_peaks(const UnitResponses& unit, const Combining& combining)
 {
-    const double length = unit.planes.front().length;
+    const Plane& plane = unit.planes.front();
     const auto base = [&](auto value) { return modal_values(unit, combining, 0, value); };
     const Eigen::VectorXd along = base([](const Resultant& r) { return r.along; });
     const Eigen::VectorXd down = base([](const Resultant& r) { return -r.across; });
@@ -278,9 +280,9 @@ ComponentPeaks component_peaks(const UnitResponses& unit, const Combining& combi
     p.shear = combining.peak(along);
     p.normal = combining.peak(down);
     p.moment = combining.peak(base([](const Resultant& r) { return r.moment; }));
-    p.heel = combining.peak(base([&](const Resultant& r) { return edge_stress(r, length, -1.0); }));
-    p.toe = combining.peak(base([&](const Resultant& r) { return edge_stress(r, length, 1.0); }));
-    p.about_toe = combining.peak(base([&](const Resultant& r) { return r.moment - 0.5 * length * r.across; }));
+    p.heel = combining.peak(base([&](const Resultant& r) { return edge_stress(r, plane, -1.0); }));
+    p.toe = combining.peak(base([&](const Resultant& r) { return edge_stress(r, plane, 1.0); }));
+    p.about_toe = combining.peak(base([&](const Resultant& r) { return r.moment - 0.5 * plane.length * r.across; }));
     p.sliding = {p.shear * p.shear, fe2d::combined_product(down, along, combining.cqc), p.normal * p.normal};
     return p;
 }

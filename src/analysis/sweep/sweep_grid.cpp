@@ -198,6 +198,7 @@ Scene sized(Scene scene, double factor)
 {
     if (factor == 1.0) return scene;
     for (Point& p : scene.section.polygon) p = {p.x * factor, p.y * factor};
+    for (Point& p : scene.section.thickness) p.x *= factor;
     scale_rock(scene, factor);
     scale_water(scene, factor);
     for (PointForce& force : scene.forces) force.at = {force.at.x * factor, force.at.y * factor};
@@ -211,6 +212,7 @@ Scene sized(Scene scene, double factor)
     for (Combination& c : scene.combinations) {
         scale(c.reservoir_level, factor);
         scale(c.tailwater_level, factor);
+        for (Point& p : c.k_profile) p.x *= factor;
     }
     scale(scene.mesh.size, factor);
     scale(scene.mesh.contact_size, factor);

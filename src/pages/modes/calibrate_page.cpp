@@ -1,0 +1,134 @@
+#include "pages/modes/calibrate_page.hpp"
+
+#include "core/file.hpp"
+#include "core/text.hpp"
+#include "core/units.hpp"
+#include "core/version.hpp"
+#include "pages/report/table_text.hpp"
+#include "pages/scene/scene_pages.hpp"
+#include "scene/plausible.hpp"
+#include "scene/write.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace damslip::pages {
+
+namespace {
+
+std::string water_words(const MeasuredFrequency& m)
+{
+    if (!m.level) return "as in the scene";
+    return *m.level == 0.0 ? "empty" : fmt::format("{:g} m", *m.level);
+}
+
+Table frequency_table(const Calibration& c)
+{
+    using Row = FittedFrequency;
+    return table_of<Row>(
+        "Frequencies (tied base)",
+        {{{"water", "water"}, [](const Row& r) { return water_words(r.measured); }},
+         {{"mode", "mode"}, [](const Row& r) { return static_cast<std::int64_t>(r.measured.mode); }},
+         {{"measured_Hz", "measured", "Hz", 4}, [](const Row& r) { return r.measured.frequency; }},
+         {{"scene_Hz", "scene", "Hz", 4}, &Row::before},
+         {{"calibrated_Hz", "calibrated", "Hz", 4}, &Row::after},
+         {{"by_dam", "d ln f / d ln E, dam", "–", 3}, &Row::by_dam},
+         {{"by_rock", "rock", "–", 3}, &Row::by_rock}},
+        c.frequencies);
+}
+
+Table modulus_table(const Calibration& c)
+{
+    using Row = FittedModulus;
+    return table_of<Row>("Moduli",
+                         {{{"key", "key"}, &Row::key},
+                          {{"scene_GPa", "scene", "GPa", 4}, [](const Row& r) { return r.before / units::GPa; }},
+                          {{"calibrated_GPa", "calibrated", "GPa", 4}, [](const Row& r) { return r.after / units::GPa; }},
+                          {{"beta", "beta of ln E", "–", 3}, &Row::beta}},
+                         c.moduli);
+}
+
+std::string headline(const Calibration& c)
+{
+    std::string words;
+    for (const FittedModulus& m : c.moduli)
+        words += fmt::format("{}E of the {} {:.4g} GPa (scene: {:.4g}), known to {:.2g} %", words.empty() ? "" : "; ",
+                             m.key.starts_with("dam") ? "dam" : "rock", m.after / units::GPa, m.before / units::GPa,
+                             100.0 * m.beta);
+    return words + ".";
+}
+
+std::vector<std::string> notes_of(const Scene& given, const Calibration& c)
+{
+    std::vector<std::string> notes = c.notes;
+    if (c.damping)
+        notes.push_back(fmt::format("damping: {:.3g} % measured, of which {:.2g} % are waves into rock and water: "
+                                    "damping.ratio = {:.4g}",
+                                    100.0 * c.damping->measured, 100.0 * c.damping->waves, c.damping->ratio));
+    notes.push_back("a frequency of small motions tells the dynamic modulus on a closed base; statics and cracks may ask for less");
+    for (std::string& note : note_texts(given.notes)) notes.push_back(std::move(note));
+    return notes;
+}
+
+} // namespace
+
+std::string fragility_laws(const Calibration& c)
+{
+    std::string text;
+    std::vector<std::string> names;
+    for (const FittedModulus& m : c.moduli) {
+        names.push_back(m.key.starts_with("dam") ? "E dam" : "E rock");
+        text += fmt::format("[[probability.variable]]\nname = \"{}\"\nkey = \"{}\"\nkind = \"epistemic\"\n"
+                            "lognormal = {{ median = {:.4g}, beta = {:.3g} }}\n",
+                            names.back(), m.key, m.after / units::GPa, m.beta);
+    }
+    if (c.rank_correlation)
+        text += fmt::format("[[probability.correlation]]\nbetween = [\"{}\", \"{}\"]\nspearman = {:.3f}\n", names[0], names[1],
+                            *c.rank_correlation);
+    return text;
+}
+
+nlohmann::ordered_json calibration_json(const Scene& given, const Calibration& c)
+{
+    auto j = json_header("calibrate", given);
+    j["moduli"] = json_of(modulus_table(c));
+    j["frequencies"] = json_of(frequency_table(c));
+    if (c.damping)
+        j["damping"] = {{"measured", c.damping->measured}, {"ratio", c.damping->ratio}, {"waves", c.damping->waves}};
+    j["misfit"] = c.misfit;
+    j["laws"] = fragility_laws(c);
+    j["notes"] = notes_of(given, c);
+    return j;
+}
+
+Answer calibration_answer(const Scene& given, const Calibration& c)
+{
+    Answer all;
+    all += given.title + "\n\n";
+    all.headline({headline(c)});
+    all.add(modulus_table(c));
+    all.add(frequency_table(c), {{"water", "mode", "measured_Hz", "scene_Hz", "calibrated_Hz", "by_dam=by E of the dam",
+                                  "by_rock=of the rock"}});
+    all += "For a fragility:\n\n" + fragility_laws(c) + "\n";
+    std::string line;
+    for (const char letter : fragility_laws(c))
+        if (letter != '\n') {
+            line += letter;
+        } else {
+            all.point("", line);
+            line.clear();
+        }
+    for (const std::string& note : notes_of(given, c)) all.note(note);
+    return all;
+}
+
+void write_calibrated(const std::filesystem::path& file, const Calibration& c)
+{
+    std::string text = fmt::format("# damslip {} calibrate: {}\n", program_version(), headline(c));
+    for (const FittedFrequency& f : c.frequencies)
+        text += fmt::format("#   water {}, mode {}: measured {:.4g} Hz, calibrated {:.4g} Hz\n", water_words(f.measured),
+                            f.measured.mode, f.measured.frequency, f.after);
+    write_file(file, text + resolved_toml(c.scene));
+}
+
+} // namespace damslip::pages
