@@ -56,10 +56,7 @@ int calibrate_scene(const CalibrateArguments& arguments, const Streams& streams)
     const Scene given = read_run_scene(arguments.inputs, streams);
     need_section(given, "damslip calibrate", "a wedge is rigid; damslip screen SCENE gives its slip");
     const Calibration c = calibrate(given, {frequencies, arguments.scatter, arguments.damping, streams.stop});
-    if (streams.form == Form::json)
-        streams.out << pages::calibration_json(given, c).dump(2) << "\n";
-    else
-        put_answer(pages::calibration_answer(given, c), arguments.out.empty() ? "--out FILE" : "", streams);
+    put_answer(pages::calibration_answer(given, c), arguments.out.empty() ? "--out FILE" : "", streams);
     if (!arguments.out.empty()) pages::write_calibrated(arguments.out, c);
     return exit_ok;
 }

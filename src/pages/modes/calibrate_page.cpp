@@ -27,13 +27,13 @@ Table frequency_table(const Calibration& c)
     using Row = FittedFrequency;
     return table_of<Row>(
         "Frequencies (tied base)",
-        {{{"water", "water"}, [](const Row& r) { return water_words(r.measured); }},
-         {{"mode", "mode"}, [](const Row& r) { return static_cast<std::int64_t>(r.measured.mode); }},
-         {{"measured_Hz", "measured", "Hz", 4}, [](const Row& r) { return r.measured.frequency; }},
-         {{"scene_Hz", "scene", "Hz", 4}, &Row::before},
-         {{"calibrated_Hz", "calibrated", "Hz", 4}, &Row::after},
-         {{"by_dam", "d ln f / d ln E, dam", "–", 3}, &Row::by_dam},
-         {{"by_rock", "rock", "–", 3}, &Row::by_rock}},
+        {{in_brief({"water", "water"}), [](const Row& r) { return water_words(r.measured); }},
+         {in_brief({"mode", "mode"}), [](const Row& r) { return static_cast<std::int64_t>(r.measured.mode); }},
+         {in_brief({"measured_Hz", "measured", "Hz", 4}), [](const Row& r) { return r.measured.frequency; }},
+         {in_brief({"scene_Hz", "scene", "Hz", 4}), &Row::before},
+         {in_brief({"calibrated_Hz", "calibrated", "Hz", 4}), &Row::after},
+         {in_brief({"by_dam", "d ln f / d ln E, dam", "–", 3}, "by E of the dam"), &Row::by_dam},
+         {in_brief({"by_rock", "rock", "–", 3}, "of the rock"), &Row::by_rock}},
         c.frequencies);
 }
 
@@ -88,27 +88,18 @@ std::string fragility_laws(const Calibration& c)
     return text;
 }
 
-nlohmann::ordered_json calibration_json(const Scene& given, const Calibration& c)
-{
-    auto j = json_header("calibrate", given);
-    j["moduli"] = json_of(modulus_table(c));
-    j["frequencies"] = json_of(frequency_table(c));
-    if (c.damping)
-        j["damping"] = {{"measured", c.damping->measured}, {"ratio", c.damping->ratio}, {"waves", c.damping->waves}};
-    j["misfit"] = c.misfit;
-    j["laws"] = fragility_laws(c);
-    j["notes"] = notes_of(given, c);
-    return j;
-}
-
 Answer calibration_answer(const Scene& given, const Calibration& c)
 {
-    Answer all;
+    Answer all(json_header("calibrate", given));
     all += given.title + "\n\n";
     all.headline({headline(c)});
-    all.add(modulus_table(c));
-    all.add(frequency_table(c), {{"water", "mode", "measured_Hz", "scene_Hz", "calibrated_Hz", "by_dam=by E of the dam",
-                                  "by_rock=of the rock"}});
+    all.add("moduli", modulus_table(c));
+    all.add("frequencies", frequency_table(c), {.brief = true});
+    if (c.damping)
+        all.set("damping",
+                {{"measured", c.damping->measured}, {"ratio", c.damping->ratio}, {"waves", c.damping->waves}});
+    all.set("misfit", c.misfit);
+    all.set("laws", fragility_laws(c));
     all += "For a fragility:\n\n" + fragility_laws(c) + "\n";
     std::string line;
     for (const char letter : fragility_laws(c))
@@ -118,6 +109,7 @@ Answer calibration_answer(const Scene& given, const Calibration& c)
             all.point("", line);
             line.clear();
         }
+    all.set("notes", notes_of(given, c));
     for (const std::string& note : notes_of(given, c)) all.note(note);
     return all;
 }

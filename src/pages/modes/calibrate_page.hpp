@@ -13,7 +13,6 @@ namespace damslip::pages {
 /// Laws of the moduli as tables of a scene file that `fragility` reads.
 std::string fragility_laws(const Calibration& c);
 
-nlohmann::ordered_json calibration_json(const Scene& given, const Calibration& c);
 Answer calibration_answer(const Scene& given, const Calibration& c);
 
 /// The calibrated scene with all defaults, as a file.
