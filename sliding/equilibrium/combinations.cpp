@@ -75,7 +75,7 @@ ResultantZone zone_of(const Scene& scene, const std::string& text)
 Requirements from_document(const Scene& scene, const Combination& combination)
 {
     Requirements out;
-    if (scene.criteria.document.empty()) return out;
+    if (scene.criteria.document.empty() || scene.criteria.document.ends_with(".toml")) return out;
     const CriteriaDocument& document = find_document(scene);
     const auto row = std::find_if(document.rows.begin(), document.rows.end(),
                                   [&](const CriteriaRow& r) { return r.kind == combination.kind; });
@@ -96,6 +96,10 @@ Requirements requirements(const Scene& scene, const Combination& combination)
 {
     Requirements out = from_document(scene, combination);
     if (combination.required_sliding_factor) out.sliding = combination.required_sliding_factor;
+    if (combination.required_residual_factor) {
+        out.sliding_residual = combination.required_residual_factor;
+        if (combination.residual_strength) out.sliding = out.sliding_residual;
+    }
     if (combination.required_flotation_factor) out.flotation = combination.required_flotation_factor;
     if (combination.required_overturning_factor) out.overturning = combination.required_overturning_factor;
     if (combination.required_resultant) out.resultant = zone_of(scene, *combination.required_resultant);

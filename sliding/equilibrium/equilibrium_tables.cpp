@@ -130,6 +130,19 @@ std::string failed_checks(const std::vector<Equilibrium>& all)
     return words;
 }
 
+namespace {
+
+/// Of what there is to what is required: 1 and more holds.
+Cell ratio(const Check& check)
+{
+    if (!check.required || !std::isfinite(check.value)) return {};
+    const bool distance = check.quantity.starts_with("resultant"); // at most
+    if (distance) return check.value > 0.0 ? Cell(*check.required / check.value) : Cell();
+    return *check.required > 0.0 ? Cell(check.value / *check.required) : Cell();
+}
+
+} // namespace
+
 Table verdict_table(const std::vector<Equilibrium>& all)
 {
     struct Row {
@@ -146,6 +159,7 @@ Table verdict_table(const std::vector<Equilibrium>& all)
          {{"check", "check"}, [](const Row& r) { return r.check.quantity; }},
          {{"value", "value", "–", 4}, [](const Row& r) { return r.check.value; }},
          {{"required", "required", "–", 4}, [](const Row& r) { return optional_cell(r.check.required); }},
+         {{"ratio", "ratio", "–", 4}, [](const Row& r) { return ratio(r.check); }},
          {{"verdict", "verdict"}, [](const Row& r) { return word(r.check.verdict); }},
          {{"source", "source"}, [](const Row& r) { return r.check.source; }}},
         rows);

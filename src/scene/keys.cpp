@@ -77,7 +77,12 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
         "criteria", "What is allowed.", &Scene::criteria,
         {number("allowable_slip", {{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}}, Range::at_least(0), "none",
                 "slip verdicts compare with this", "0.1", at(&Criteria::allowable_slip)),
-         word("document", "none", "shipped set of required safety factors", "\"cadam3d\"", at(&Criteria::document)),
+         word("document", "none",
+              "shipped set of required safety factors, or a file of yours (.toml) with title, source, [[combination]] and [criteria]: "
+              "load combinations where the scene has none, and what they require",
+              "\"criteria/canada_1999.toml\"", at(&Criteria::document)),
+         word("report_order", "empty", "titles of the report's sections that come first", "\"Planes, Slip\"",
+              at(&Criteria::report_order)),
          number("pga_fraction", none, Range::half_open(0, 2), "1",
                 "of the seismic combination that the program makes: k_h as share of the largest PGA of the records",
                 "0.67", at(&Criteria::pga_fraction)),

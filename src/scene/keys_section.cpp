@@ -292,6 +292,8 @@ std::vector<Key> combination_keys()
         number("ice_factor", none, Range::at_least(0), "1", "load factor on the ice thrust", "1.1", at(&C::ice_factor)),
         number("required_sliding_factor", none, Range::above(0), "from criteria.document, else none",
                "required factor of safety against sliding", "1.5", at(&C::required_sliding_factor)),
+        number("required_residual_factor", none, Range::above(0), "from criteria.document, else none",
+               "required factor of safety against sliding, of the residual strength", "1.1", at(&C::required_residual_factor)),
         number("required_flotation_factor", none, Range::above(0), "none",
                "required factor of safety against flotation", "1.2", at(&C::required_flotation_factor)),
         number("required_overturning_factor", none, Range::above(0), "none",

@@ -493,6 +493,73 @@ void keep_wedge_tables(std::vector<KeyGroup>& groups, toml::table& root, Finding
     std::erase_if(groups, [](const KeyGroup& group) { return !belongs_to_wedge(group.name); });
 }
 
+/// A document of the user's that judges: a part of a scene, read by the same keys.
+Scene criteria_of(const std::filesystem::path& file, const std::vector<KeyGroup>& groups)
+{
+    toml::table root = toml_of(read_file(file, 1u << 20), file);
+    Findings findings(file.string());
+    Scene document;
+    document.file = file;
+    std::string words; // where it comes from
+    for (const char* name : {"title", "edition", "source"})
+        if (const auto value = root[name].value<std::string>()) words += (words.empty() ? "" : ", ") + *value;
+    for (auto&& [name, node] : root) {
+        const std::string_view key = name.str();
+        if (key == "title" || key == "edition" || key == "source" || key == "criteria" || key == "combination") continue;
+        findings.wrong_at(place_of(name.source()), fmt::format("{} has no place in a document of criteria.", key),
+                          "title, edition, source, [criteria], [[combination]]", "delete it, or move it to the scene");
+    }
+    for (const KeyGroup& group : groups)
+        if (group.name == "criteria" || group.name == "combination") read_group(group, groups, root, document, findings);
+    if (document.combinations.empty())
+        findings.wrong_at({1, 1}, "this document of criteria has no [[combination]].",
+                          "[[combination]] with name, kind and required_sliding_factor", "add one");
+    findings.throw_if_any();
+    for (Combination& c : document.combinations)
+        if (c.source.empty()) c.source = words;
+    return document;
+}
+
+/// The first combination of a kind; null: the document has none.
+const Combination* of_kind(const Scene& document, CombinationKind kind)
+{
+    const auto at = std::find_if(document.combinations.begin(), document.combinations.end(),
+                                 [=](const Combination& c) { return c.kind == kind; });
+    return at == document.combinations.end() ? nullptr : &*at;
+}
+
+/// What the scene leaves open is the document's: all load combinations, or by their kind what they require.
+void use_criteria(const Scene& document, Scene& scene)
+{
+    if (scene.combinations.empty()) scene.combinations = document.combinations;
+    for (Combination& c : scene.combinations) {
+        const Combination* by = of_kind(document, c.kind);
+        if (!by) continue;
+        if (!c.required_sliding_factor) c.required_sliding_factor = by->required_sliding_factor;
+        if (!c.required_residual_factor) c.required_residual_factor = by->required_residual_factor;
+        if (!c.required_flotation_factor) c.required_flotation_factor = by->required_flotation_factor;
+        if (!c.required_overturning_factor) c.required_overturning_factor = by->required_overturning_factor;
+        if (!c.required_resultant) c.required_resultant = by->required_resultant;
+        if (c.source.empty()) c.source = by->source;
+    }
+    Criteria& criteria = scene.criteria;
+    if (!criteria.allowable_slip) criteria.allowable_slip = document.criteria.allowable_slip;
+    if (criteria.report_order.empty()) criteria.report_order = document.criteria.report_order;
+    criteria.document.clear(); // merged: the resolved scene stands for itself
+}
+
+void merge_criteria(const std::vector<KeyGroup>& groups, FileCheck check, Scene& scene, Findings& findings)
+{
+    const std::string name = scene.criteria.document;
+    if (!name.ends_with(".toml")) return;
+    const std::filesystem::path file = scene.file.parent_path() / name;
+    if (check == FileCheck::skip && !std::filesystem::exists(file)) return;
+    if (!std::filesystem::is_regular_file(file))
+        return findings.wrong("criteria.document", fmt::format("criteria.document = \"{}\": there is no such file.", name),
+                              "a path from the scene's folder, or \"cadam3d\"", "correct the path");
+    use_criteria(criteria_of(file, groups), scene);
+}
+
 void resolve_paths(Scene& scene)
 {
     const std::filesystem::path folder = scene.file.parent_path();
@@ -631,6 +698,7 @@ Scene scene_of_table(toml::table root, const std::filesystem::path& file, FileCh
     for (const char* table : fragility_tables) root.erase(table); // they are no part of a Scene
     for (const KeyGroup& group : groups) read_group(group, groups, root, scene, findings);
     read_expectations(root, scene, findings);
+    merge_criteria(groups, check, scene, findings);
 
     if (!wedge) scene.section = make_section(section, findings);
     if (scene.title.empty()) scene.title = file.stem().string();

@@ -398,6 +398,7 @@ struct Combination {
     double weight_factor = 1.0, water_factor = 1.0, uplift_factor = 1.0, silt_factor = 1.0,
            ice_factor = 1.0;                           ///< load factors [-]
     std::optional<double> required_sliding_factor;     ///< [-]
+    std::optional<double> required_residual_factor;    ///< against sliding, of the residual strength [-]
     std::optional<double> required_flotation_factor;   ///< [-]
     std::optional<double> required_overturning_factor; ///< [-]
     std::optional<std::string> required_resultant;     ///< "kern", "middle-half", "base"
@@ -406,7 +407,8 @@ struct Combination {
 
 struct Criteria {
     std::optional<double> allowable_slip; ///< [m]
-    std::string document;                 ///< name of a shipped criteria file or path of one; empty: no required values
+    std::string document;                 ///< name of a shipped set of required values; empty: none. That of a user's file is merged
+    std::string report_order;             ///< titles of the report's sections that come first, with commas
     double pga_fraction = 1.0;   ///< of the seismic combination that the program makes: k_h as share of the PGA [-]
     double pga_v_fraction = 0.0; ///< and k_v as share of the largest vertical acceleration, which lightens [-]
 };

@@ -265,6 +265,7 @@ Page assess_page(const Assessment& a, const Scene& given)
     page.sections.push_back({"Scene", {scene_listing(given)}, Fold::open});
     page.provenance = scene_provenance(given);
     add_record_provenance(a.ready.records(), page.provenance);
+    order_sections(given.criteria.report_order, page);
     return page;
 }
 

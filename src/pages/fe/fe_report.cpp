@@ -326,6 +326,7 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::
     std::erase_if(how, [](const Table& table) { return table.rows.empty(); });
     end_fe_page(frame, motions_, how, page);
     std::move(appendix.begin(), appendix.end(), std::back_inserter(page.sections));
+    order_sections(in_.scene.criteria.report_order, page);
     return page;
 }
 

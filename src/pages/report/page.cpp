@@ -4,6 +4,8 @@
 #include "pages/report/json.hpp"
 #include "pages/report/table_text.hpp"
 
+#include <algorithm>
+
 namespace damslip::pages {
 
 Headline with_failed_checks(Headline slip, const std::string& failed)
@@ -190,6 +192,23 @@ std::string head_html(const Page& page)
 }
 
 } // namespace
+
+void order_sections(const std::string& titles, Page& page)
+{
+    auto next = page.sections.begin();
+    for (std::size_t from = 0; from < titles.size();) {
+        const std::size_t end = std::min(titles.find(',', from), titles.size());
+        const std::size_t begin = std::min(titles.find_first_not_of(' ', from), end);
+        const std::string title = titles.substr(begin, end - begin);
+        from = end + 1;
+        if (title.empty()) continue;
+        const auto at = std::find_if(next, page.sections.end(), [&](const Section& s) { return s.title == title; });
+        if (at == page.sections.end())
+            page.warnings.push_back("criteria.report_order: this report has no section \"" + title + "\".");
+        else
+            std::rotate(next++, at, at + 1);
+    }
+}
 
 std::string page_html(const Page& page)
 {

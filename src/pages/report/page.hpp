@@ -92,6 +92,9 @@ struct Page {
     std::vector<std::pair<std::string, std::string>> provenance; ///< name, value: version, scene hash, checksums
 };
 
+/// Sections with these titles first, in this order; a title that the page does not have is a warning. @param titles  with commas
+void order_sections(const std::string& titles, Page& page);
+
 /// The page as one HTML file that needs nothing else: style, script and data inside, no reference to any network.
 /// The same page gives the same bytes.
 std::string page_html(const Page& page);

@@ -3,6 +3,7 @@
 #include "core/units.hpp"
 #include "pages/scene/scene_pages.hpp"
 #include "scene/section.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -106,6 +107,42 @@ Table plane_table(const Planes& planes, const Scene& scene, PlaneRows which)
                               : fmt::format("{} lifts that govern nothing: see the table of lifts.",
                                             planes.rows.size() - shown.size()));
     return t;
+}
+
+Table criteria_table(const Screening& s, const Scene& scene)
+{
+    struct Row {
+        std::string plane, combination, check;
+        double required, computed, ratio; ///< [-]
+        std::string source;
+    };
+    std::vector<Row> rows;
+    for (const sliding::Equilibrium& e : s.combinations)
+        for (const sliding::Check& check : e.checks) {
+            if (!check.required || !std::isfinite(check.value) || !(*check.required > 0.0)) continue;
+            const bool distance = check.quantity.starts_with("resultant");
+            rows.push_back({"base", e.name, check.quantity, *check.required, check.value,
+                            distance ? *check.required / check.value : check.value / *check.required, check.source});
+        }
+    for (const PlaneRow& plane : s.planes.rows)
+        for (std::size_t k = 0; k < s.planes.states.size() && k < plane.factors.size(); ++k) {
+            const PlaneState& state = s.planes.states[k];
+            if (plane.kind == PlaneKind::base || !state.required || !plane.factors[k]) continue;
+            std::string source;
+            for (const Combination& c : scene.combinations)
+                if (c.name == state.ground.name) source = sliding::requirements(scene, c).source;
+            rows.push_back({plane.name, state.ground.name, "sliding", *state.required, *plane.factors[k],
+                            *plane.factors[k] / *state.required, source});
+        }
+    return table_of<Row>("Required and computed",
+                         {{{"plane", "plane"}, &Row::plane},
+                          {{"combination", "combination"}, &Row::combination},
+                          {{"check", "check"}, &Row::check},
+                          {{"required", "required", "–", 4}, &Row::required},
+                          {{"computed", "computed", "–", 4}, &Row::computed},
+                          {{"ratio", "ratio", "–", 4}, &Row::ratio},
+                          {{"source", "source"}, &Row::source}},
+                         rows, {"ratio: computed over required, of the resultant's distance required over computed; 1 and more holds."});
 }
 
 Table lift_plane_table(const Planes& planes)

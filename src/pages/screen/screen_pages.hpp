@@ -110,6 +110,8 @@ enum class PlaneRows { all, governing_lifts, governing };
 Table plane_table(const Planes& planes, const Scene& scene, PlaneRows which);
 /// Base, lifts and seams side by side; then each lift, each seam, and the blocks of each seam. Empty: the scene has neither.
 std::vector<Table> plane_tables(const Planes& planes, const Scene& scene, PlaneRows which);
+/// What the load combinations require of base, lifts and seams, what was computed, and by whom it is required; no rows: nothing is.
+Table criteria_table(const Screening& s, const Scene& scene);
 /// The tables, a drawing of each seam with its blocks, water and forces, and charts over elevation and wedge angle.
 Section plane_section(const Planes& planes, const Scene& scene);
 /// The headline of the base joined with what the other planes say: the worst of them counts.

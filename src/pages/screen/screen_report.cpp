@@ -390,6 +390,7 @@ Page screen_page(const ScreenReportInput& in)
     page.sections.push_back(limits_section(in.scene, Method::rigid_block));
     page.sections.push_back({"Scene", {scene_listing(in.given)}, Fold::open});
     page.provenance = provenance(in);
+    order_sections(in.scene.criteria.report_order, page);
     return page;
 }
 
@@ -490,9 +491,10 @@ Answer screen_answer(const ScreenReportInput& in)
         out.add("verdicts", sliding::verdict_table(s.combinations), {.text = false, .file = "verdicts.csv"});
         const Table checks = sliding::check_matrix(s.combinations);
         if (checks.rows.empty())
-            out += "verdicts: no required values are given; name criteria.document, or required_... in "
-                   "[[combination]]\n\n";
+            out += "verdicts: no required values are given. criteria.document = \"FILE.toml\" judges, as "
+                   "examples/criteria/canada_1999.toml; or required_... in [[combination]]\n\n";
         out.add("checks", checks, {.data = false, .turned = 2});
+        out.add("criteria", criteria_table(s, in.scene), {.text = !s.planes.rows.empty(), .file = "criteria.csv"});
         out.add("yield", yield_table(s), {.file = "yield.csv", .turned = 1});
         if (!in.given.lift_joints.empty()) out.add("lift_joints", lift_joint_table(in.given));
         if (!in.given.anchors.empty()) out.add("anchors", anchor_list_table(in.given));
