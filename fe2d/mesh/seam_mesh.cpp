@@ -326,12 +326,14 @@ void add_base(Mesh& mesh, const std::vector<Column>& columns, const std::vector<
     mesh.lifts.insert(mesh.lifts.begin(), std::move(plane));
 }
 
-/// Nodes on both sides of a bend, from the ground down.
+/// Nodes on both sides of a bend, from the ground down. Below the toe the dam is a third body at the upper end, too.
 void add_interface(Mesh& mesh, const std::vector<int>& upstream, const std::vector<int>& downstream)
 {
     LiftPlane plane{.lower_nodes = {}, .upper_nodes = {}, .distance = {}, .upright = true};
     const auto y = [&](std::size_t j) { return mesh.nodes[static_cast<std::size_t>(upstream[j])].y; };
-    for (std::size_t j = 0; j + 1 < upstream.size(); ++j) {
+    const bool at_toe = upstream.front() == mesh.lifts.front().lower_nodes.back();
+    if (at_toe) mesh.seam->bends.push_back({upstream.front(), downstream.front(), downstream.front()});
+    for (std::size_t j = at_toe ? 1 : 0; j + 1 < upstream.size(); ++j) {
         plane.lower_nodes.push_back(upstream[j]);
         plane.upper_nodes.push_back(downstream[j]);
         plane.distance.push_back(y(0) - y(j));
@@ -382,8 +384,8 @@ void append_rock_with_seam(Mesh& mesh, const Scene& scene, const MeshSizes& size
             mesh.nodes[static_cast<std::size_t>(mesh.contact.dam_nodes[i])];
     for (std::size_t i = 1; i < bodies.size(); ++i) {
         const std::vector<int>&upstream = bodies[i - 1].back(), &downstream = bodies[i].front();
-        add_interface(mesh, upstream, downstream);
         mesh.seam->bends.push_back({upstream.back(), downstream.back(), rock[places.at(path[i].x)]});
+        add_interface(mesh, upstream, downstream);
     }
 
     // 4. Faces with water in them, and the ground above the path.
