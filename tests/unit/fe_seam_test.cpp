@@ -1,4 +1,4 @@
-// A dam on a weak seam by finite elements, against the chain of rigid blocks: its forces at the limit, its factor, its slip.
+// A dam on a weak seam by finite elements, against the chain of rigid blocks: forces at the limit, factor, slip.
 #include "analysis/prepare/ready.hpp"
 #include "core/input_error.hpp"
 #include "core/watch.hpp"
@@ -221,7 +221,7 @@ sliding::SlideResult chain_slide(const Scene& scene, const GroundMotion& motion)
     return sliding::slide(motion, sliding::seam_plane(scene, scene.seams[0], {}).stages, options);
 }
 
-GroundMotion flipped(GroundMotion motion)
+GroundMotion with_other_polarity(GroundMotion motion)
 {
     for (double& a : motion.accel_h) a = -a;
     return motion;
@@ -237,7 +237,7 @@ TEST(FeSeam, StiffUndampedBodiesSlideAsTheChainWithinTheStepsError)
             const Ready ready = ready_of(scene);
             const Watch nobody;
             const EarthquakeRun model(ready.scene, ready.run_options(nobody));
-            for (const GroundMotion& m : {motion, flipped(motion)}) {
+            for (const GroundMotion& m : {motion, with_other_polarity(motion)}) {
                 SCOPED_TRACE(::testing::Message() << (wedge ? "wedge" : "free face") << ", dip " << dip / deg
                                                   << (m.accel_h == motion.accel_h ? ", as is" : ", flipped"));
                 const double chain = chain_slide(scene, m).max_slip;
