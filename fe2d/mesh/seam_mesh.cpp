@@ -14,8 +14,8 @@ namespace damslip::fe2d {
 namespace {
 
 constexpr double same_station = 1e-9; ///< of stations, over the box's width [-]
-constexpr double most_rows = 24.0;  ///< over the largest depth of the path
-constexpr double least_rows = 3.0;  ///< over an interface
+constexpr double most_rows = 24.0;    ///< over the largest depth of the path
+constexpr double least_rows = 3.0;    ///< over an interface
 
 /// One column of nodes between the ground and the path.
 struct Column {
@@ -90,7 +90,8 @@ private:
             const double change = std::abs(thickness(b) - thickness(a)) / std::abs(b - a);
             const double widest = change > 0.0 ? row_ / change : HUGE_VAL;
             const double first = std::min(size_, widest);
-            Grading grading{.first = first, .growth = growth_, .largest = std::max(first, std::min(widest, 4.0 * size_))};
+            Grading grading{
+                .first = first, .growth = growth_, .largest = std::max(first, std::min(widest, 4.0 * size_))};
             std::vector<double> places = graded_positions({0.0, std::abs(b - a)}, grading);
             if (places.size() < 3) places = even_positions({0.0, std::abs(b - a)}, 0.5 * std::abs(b - a));
             for (std::size_t k = 1; k + 1 < places.size(); ++k) add(a + sign * places[k]);
@@ -151,8 +152,8 @@ private:
 };
 
 /// Pairs of one segment of the path, and its part of the two lines.
-void add_segment(Mesh& mesh, const std::vector<std::vector<int>>& columns, const std::vector<int>& rock, std::size_t first,
-                 bool bend_before, bool bend_beyond)
+void add_segment(Mesh& mesh, const std::vector<std::vector<int>>& columns, const std::vector<int>& rock,
+                 std::size_t first, bool bend_before, bool bend_beyond)
 {
     SeamLine& seam = *mesh.seam;
     ContactPlane& plane = mesh.contact;
@@ -321,17 +322,20 @@ void add_base(Mesh& mesh, const std::vector<Column>& columns, const std::vector<
     for (std::size_t i = 0; i < body.size(); ++i)
         if (columns[i].dam >= 0) {
             plane.lower_nodes.push_back(body[i].front());
-            mesh.nodes[static_cast<std::size_t>(body[i].front())] = mesh.nodes[static_cast<std::size_t>(columns[i].dam)];
+            mesh.nodes[static_cast<std::size_t>(body[i].front())] =
+                mesh.nodes[static_cast<std::size_t>(columns[i].dam)];
         }
     mesh.lifts.insert(mesh.lifts.begin(), std::move(plane));
 }
 
-/// Nodes on both sides of a bend, from the ground down.
+/// Nodes on both sides of a bend, from the ground down. Below the toe the dam is a third body at the upper end, too.
 void add_interface(Mesh& mesh, const std::vector<int>& upstream, const std::vector<int>& downstream)
 {
     LiftPlane plane{.lower_nodes = {}, .upper_nodes = {}, .distance = {}, .upright = true};
     const auto y = [&](std::size_t j) { return mesh.nodes[static_cast<std::size_t>(upstream[j])].y; };
-    for (std::size_t j = 0; j + 1 < upstream.size(); ++j) {
+    const bool at_toe = upstream.front() == mesh.lifts.front().lower_nodes.back();
+    if (at_toe) mesh.seam->bends.push_back({upstream.front(), downstream.front(), downstream.front()});
+    for (std::size_t j = at_toe ? 1 : 0; j + 1 < upstream.size(); ++j) {
         plane.lower_nodes.push_back(upstream[j]);
         plane.upper_nodes.push_back(downstream[j]);
         plane.distance.push_back(y(0) - y(j));
@@ -349,10 +353,12 @@ void append_rock_with_seam(Mesh& mesh, const Scene& scene, const MeshSizes& size
     const Polyline& path = scene.seam_body->path;
     const PathColumns places(mesh, scene, sizes.contact);
     const std::vector<Column>& columns = places.all();
-    if (const auto bare = std::find_if(columns.begin(), columns.end(), [](const Column& c) { return c.dam >= 0 && c.rows == 0; });
+    if (const auto bare =
+            std::find_if(columns.begin(), columns.end(), [](const Column& c) { return c.dam >= 0 && c.rows == 0; });
         bare != columns.end())
         refuse(scene.file, fmt::format("seam \"{}\" meets the base at x = {:.6g} m.", scene.seam_body->name, bare->x),
-               "rock between seam and base from heel to toe: both are joints of the model", "start the seam lower, or upstream of the heel");
+               "rock between seam and base from heel to toe: both are joints of the model",
+               "start the seam lower, or upstream of the heel");
     mesh.seam.emplace();
     const std::vector<double> along_base = std::exchange(mesh.contact.distance, {});
     mesh.seam->base = std::exchange(mesh.contact.dam_nodes, {});
@@ -382,8 +388,8 @@ void append_rock_with_seam(Mesh& mesh, const Scene& scene, const MeshSizes& size
             mesh.nodes[static_cast<std::size_t>(mesh.contact.dam_nodes[i])];
     for (std::size_t i = 1; i < bodies.size(); ++i) {
         const std::vector<int>&upstream = bodies[i - 1].back(), &downstream = bodies[i].front();
-        add_interface(mesh, upstream, downstream);
         mesh.seam->bends.push_back({upstream.back(), downstream.back(), rock[places.at(path[i].x)]});
+        add_interface(mesh, upstream, downstream);
     }
 
     // 4. Faces with water in them, and the ground above the path.

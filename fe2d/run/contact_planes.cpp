@@ -242,6 +242,7 @@ Plane plane_of(const LiftPlane& lift)
     share_areas(plane);
     if (!lift.upright) return plane;
     plane.upright = true;
+    plane.area[0] += plane.distance[0]; // ends without a pair
     plane.area[plane.pairs() - 1] += lift.beyond;
     plane.normal = {1.0, 0.0};
     plane.tangent = {0.0, -1.0};

@@ -143,8 +143,8 @@ KeyGroup seam_group(const std::vector<Key>& contact)
                "0.05", at(&S::dilation_slip))};
     list.insert(list.end(), more.begin(), more.end());
     return list_group<S>("seam",
-                         "A weak seam in the rock below the dam, on which dam and rock slide; for the rigid block. See "
-                         "docs/planes.md.",
+                         "A weak seam in the rock below the dam, on which dam and rock slide; for the rigid block, and for `fe --plane "
+                         "NAME`. See docs/planes.md.",
                          seams_of, std::move(list));
 }
 

@@ -37,11 +37,13 @@ const Obstacle obstacles[] = {
     {[](const Scene& s, const Seam&) { return s.mesh.file.has_value(); }, "mesh.file is given",
      "the program's own mesh, which has the seam as a line", "delete  file  from [mesh]"},
     {[](const Scene& s, const Seam&) {
-         return s.mesh.element == ElementKind::q8 || s.mesh.element == ElementKind::q9 || s.mesh.element == ElementKind::t6;
+         return s.mesh.element == ElementKind::q8 || s.mesh.element == ElementKind::q9 ||
+                s.mesh.element == ElementKind::t6;
      },
      "mesh.element is quadratic", "linear elements: q4, q4-incompatible or t3", "delete  element  from [mesh]"},
-    {[](const Scene& s, const Seam&) { return s.mesh.rock_contact_size.has_value(); }, "mesh.rock_contact_size_m is given",
-     "the same nodes on both sides of the seam", "delete  rock_contact_size_m  from [mesh]"},
+    {[](const Scene& s, const Seam&) { return s.mesh.rock_contact_size.has_value(); },
+     "mesh.rock_contact_size_m is given", "the same nodes on both sides of the seam",
+     "delete  rock_contact_size_m  from [mesh]"},
     {[](const Scene& s, const Seam&) { return s.contact.sliding == JointPath::finite; }, "contact.sliding = \"finite\"",
      "sliding = \"small\"", "write  sliding = \"small\"  in [contact]"},
     {[](const Scene& s, const Seam&) { return s.stages.pore_pressure != PorePressure::none; },
@@ -52,28 +54,31 @@ const Obstacle obstacles[] = {
      },
      "an [[anchor]] crosses the base", "anchors of lift joints: how far those of the base reach down is not known",
      "take the anchor out, or run the base (without --plane)"},
-    {[](const Scene& s, const Seam&) { return s.uplift && s.uplift->water.follows(); }, "uplift.opening follows the joint",
-     "water along the seam that stays as it is", "delete  opening  from [uplift]"},
+    {[](const Scene& s, const Seam&) { return s.uplift && s.uplift->water.follows(); },
+     "uplift.opening follows the joint", "water along the seam that stays as it is", "delete  opening  from [uplift]"},
     {[](const Scene& s, const Seam&) { return s.uplift && s.uplift->model == UpliftModel::seepage; },
      "uplift.model = \"seepage\"", "uplift by a profile: what flows in rock with a seam is not known",
      "write  model = \"linear\"  or another in [uplift]"},
     {[](const Scene& s, const Seam& seam) {
          return seam.uplift == UpliftModel::drains && s.drains && s.drains->lost_at_slip.has_value();
      },
-     "drains.lost_at_slip_m is given", "drains that last", "delete  lost_at_slip_m  from [drains], or use  damslip screen"},
+     "drains.lost_at_slip_m is given", "drains that last",
+     "delete  lost_at_slip_m  from [drains], or use  damslip screen"},
+    {[](const Scene&, const Seam& seam) { return seam.dilation != 0.0 || (seam.wedge && seam.wedge->dilation != 0.0); },
+     "it dilates (dilation_deg)", "a seam along which blocks slide without rising",
+     "write  dilation_deg = 0 , or use  damslip screen"},
     {[](const Scene&, const Seam& seam) {
-         return seam.dilation != 0.0 || (seam.wedge && seam.wedge->dilation != 0.0);
+         return bends(seam) &&
+                std::abs(seam.interface.angle.value_or(90.0 * units::degree) - 90.0 * units::degree) > 1e-9;
      },
-     "it dilates (dilation_deg)", "a seam along which blocks slide without rising", "write  dilation_deg = 0 , or use  damslip screen"},
-    {[](const Scene&, const Seam& seam) {
-         return bends(seam) && std::abs(seam.interface.angle.value_or(90.0 * units::degree) - 90.0 * units::degree) > 1e-9;
-     },
-     "interface.angle_deg is not 90", "upright interfaces", "write  angle_deg = 90  in [seam.interface], or use  damslip screen"},
+     "interface.angle_deg is not 90", "upright interfaces",
+     "write  angle_deg = 90  in [seam.interface], or use  damslip screen"},
     {[](const Scene& s, const Seam& seam) {
          const Polyline path = seam_path(s, seam);
          return std::any_of(path.begin() + 1, path.end(), [&](Point p) { return p.x < heel(s.section).x - 1e-9; });
      },
-     "its path bends upstream of the dam", "a straight path up to the toe", "give a path that is straight up to the toe"},
+     "its path bends upstream of the dam", "a straight path up to the toe",
+     "give a path that is straight up to the toe"},
 };
 
 void check(const Scene& scene, const Seam& seam)
@@ -81,7 +86,8 @@ void check(const Scene& scene, const Seam& seam)
     for (const Obstacle& o : obstacles)
         if (o.there(scene, seam))
             throw InputError(Diagnostic{scene.file.string(), 0, 0,
-                                        fmt::format("--plane \"{}\" by finite elements: {}.", seam.name, o.what), o.expected, o.fix});
+                                        fmt::format("--plane \"{}\" by finite elements: {}.", seam.name, o.what),
+                                        o.expected, o.fix});
 }
 
 const Seam& named_seam(const Scene& scene)
@@ -166,7 +172,8 @@ SeamBody body_of(const Scene& scene, const Seam& seam, std::optional<double> ang
         LiftJoint face;
         face.name = fmt::format("interface at {:.6g} m", body.path[i].x);
         face.elevation = ground_level(ground_line(scene), body.path[i].x);
-        face.strength = strength_of(scene.contact, rubs ? seam.interface.friction : 0.0, rubs ? seam.interface.cohesion : 0.0);
+        face.strength =
+            strength_of(scene.contact, rubs ? seam.interface.friction : 0.0, rubs ? seam.interface.cohesion : 0.0);
         body.interfaces.push_back(std::move(face));
     }
     add_face_levels(scene, seam, model, body);
@@ -180,9 +187,9 @@ Scene with_seam_body(Scene scene)
     if (scene.planes.slides_on.empty()) return scene;
     const Seam seam = named_seam(scene);
     check(scene, seam);
-    const std::optional<double> angle =
-        seam.exit == SeamExit::wedge && seam.wedge->angles.size() == 1 ? std::optional(seam.wedge->angles.front())
-                                                                       : sliding::seam_plane(scene, seam, {}).angle;
+    const std::optional<double> angle = seam.exit == SeamExit::wedge && seam.wedge->angles.size() == 1
+                                            ? std::optional(seam.wedge->angles.front())
+                                            : sliding::seam_plane(scene, seam, {}).angle;
     scene.seam_body = body_of(scene, seam, angle);
     return scene;
 }

@@ -195,7 +195,10 @@ Table mesh_table(const fe2d::Mesh& mesh)
         t.notes.push_back(mesh.contact.matching ? "the nodes of dam and rock face each other along the base."
                                                 : "the nodes of dam and rock do not face each other along the base.");
     for (std::size_t i = 0; i < mesh.lifts.size(); ++i)
-        t.notes.push_back(fmt::format("lift joint {}: {} pairs of nodes.", i + 1, mesh.lifts[i].lower_nodes.size()));
+        t.notes.push_back(mesh.seam && (i == 0 || mesh.lifts[i].upright)
+                              ? fmt::format("{}: {} pairs of nodes; base_nodes are those of the seam's path.",
+                                            i == 0 ? "base" : "upright face", mesh.lifts[i].lower_nodes.size())
+                              : fmt::format("lift joint {}: {} pairs of nodes.", i + 1, mesh.lifts[i].lower_nodes.size()));
     return t;
 }
 
