@@ -285,7 +285,7 @@ struct SeamBody {
     Polyline path;                   ///< the seam, then the plane of its wedge; from upstream to downstream [m]
     std::vector<Contact> strengths;  ///< of each segment
     std::vector<Point> water;        ///< x = along the path [m], y = pressure on it [Pa]; empty: none
-    std::vector<LiftJoint> interfaces; ///< of each bend
+    std::vector<LiftJoint> interfaces; ///< the joint of the base, then one of each bend
     /// Water in the faces is hydrostatic below these levels [m]: the crack above the first point, the interfaces, the free end.
     std::optional<double> crack_level, end_level;
     std::vector<std::optional<double>> interface_levels;

@@ -221,7 +221,7 @@ TEST(Assess, WhatIsLeftOutIsNamedInEveryForm)
     const std::string sentence =
         "Not run (3 s would not do): finite elements, without uplift; finite elements, without separation.";
     EXPECT_NE(pages::assess_answer(a, a.ready.given).full().find(sentence), std::string::npos);
-    const auto notes = pages::assess_json(a, a.ready.given)["notes"];
+    const auto notes = pages::assess_answer(a, a.ready.given).json()["notes"];
     EXPECT_NE(std::find(notes.begin(), notes.end(), sentence), notes.end());
     const std::vector<std::string> warnings = pages::assess_page(a, a.ready.given).warnings;
     EXPECT_NE(std::find(warnings.begin(), warnings.end(), sentence), warnings.end());
@@ -231,7 +231,7 @@ TEST(Assess, NumbersAreTheOnesOfTheJson)
 {
     Assessment a = with_finite_elements(50);
     judge_assessment(a);
-    const nlohmann::ordered_json j = pages::assess_json(a, a.ready.given);
+    const nlohmann::ordered_json j = pages::assess_answer(a, a.ready.given).json();
     EXPECT_EQ(j["verdict"], "PASS");
     EXPECT_NEAR(j["recommended"]["slip_mm"].get<double>(), 23.0, 1e-9);
     const auto fe = std::find_if(j["levels"].begin(), j["levels"].end(),
