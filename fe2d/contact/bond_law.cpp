@@ -22,6 +22,7 @@ constexpr int free_solutions = 40;
 constexpr double largest_overshoot = 1e-3;
 constexpr int most_solutions = 400;
 constexpr int most_solutions_of_step = 100; ///< then a step in time is better made in halves
+constexpr int most_tangents = 40;           ///< the same where all pairs are found by Newton's iteration
 /// Where a bond has no strength across the joint, tension beyond this share of its shear strength parts it: round-off [-].
 constexpr double no_tension = 1e-9;
 
@@ -296,8 +297,13 @@ JointFit BondLaw::revise(const ContactSolution& solution)
     for (Index i = 0; i < damage_.size(); ++i)
         if (strength_[static_cast<std::size_t>(i)].any() && start_damage_[i] < 1.0)
             fit = std::max(fit, revise_pair(i, solution));
-    if (fit == JointFit::changed)
-        return solutions_ < (static_ ? most_solutions : most_solutions_of_step) ? fit : JointFit::too_far;
+    if (fit == JointFit::changed) {
+        const bool all_tangents = std::all_of(strength_.begin(), strength_.end(), [](const BondStrength& b) {
+            return b.unloading == BondUnloading::origin || b.shear == 0.0;
+        });
+        const int most = static_ ? most_solutions : all_tangents ? most_tangents : most_solutions_of_step;
+        return solutions_ < most ? fit : JointFit::too_far;
+    }
     if (solutions_ > free_solutions)
         for (Index i = 0; i < damage_.size(); ++i)
             if (damage_[i] >

@@ -128,7 +128,8 @@ bool ContactSolver::one_by_one(const ContactProblem& problem, ContactSolution& s
     return false;
 }
 
-ContactReport ContactSolver::solve(const Eigen::VectorXd& stuck_force, const ContactLaw& law, ContactSolution& solution)
+ContactReport ContactSolver::solve(const Eigen::VectorXd& stuck_force, const ContactLaw& law, ContactSolution& solution,
+                                   bool definite)
 {
     const Index m = law.pairs();
     assert(stiffness_->rows() == 2 * m && stuck_force.size() == 2 * m);
@@ -147,6 +148,7 @@ ContactReport ContactSolver::solve(const Eigen::VectorXd& stuck_force, const Con
     if (newton(problem, solution, report, tolerance)) return finish(ContactPath::newton);
     solution.states = start_;
     if (report.mechanism) set_stuck();
+    if (!definite || options_.gauss_seidel_sweeps == 0) return finish(ContactPath::unresolved);
     if (one_by_one(problem, solution, report, tolerance)) return finish(ContactPath::worst_violator);
 
     set_stuck();

@@ -62,7 +62,9 @@ public:
 
     /// @param stuck_force  λ⁰, 2m [N/m]
     /// @param solution     on entry its states are the start (those of the last step; empty: all stuck)
-    ContactReport solve(const Eigen::VectorXd& stuck_force, const ContactLaw& law, ContactSolution& solution);
+    /// @param definite     V is positive semi-definite; else nothing is tried where the search for states goes round
+    ContactReport solve(const Eigen::VectorXd& stuck_force, const ContactLaw& law, ContactSolution& solution,
+                        bool definite = true);
 
     /// Impulses on held gaps that change their rates by `held_jump` (2m, zero where not held), with the states of the last
     /// solution: none on open pairs, slipping ones slide on with Coulomb's friction. @returns false for a mechanism.

@@ -115,7 +115,8 @@ ContactReport JointLawSolver::solve(const VectorXd& stuck_force, const JointTerm
     std::vector<Index> bonded;
     for (std::size_t i = 0; i < terms.bonded.size(); ++i)
         if (terms.bonded[i]) bonded.push_back(static_cast<Index>(i));
-    if (bonded.empty()) return solver_->solve(stuck, terms.strength, solution);
+    const bool definite = terms.diagonal.minCoeff() >= 0.0;
+    if (bonded.empty()) return solver_->solve(stuck, terms.strength, solution, definite);
 
     // Bonded pairs are pressed together by more than pulls or shears them, so they stick and stay out of the active set:
     // one that breaks is one more in it, and the inverse goes on.
@@ -132,7 +133,7 @@ ContactReport JointLawSolver::solve(const VectorXd& stuck_force, const JointTerm
             pressed[i] += preload;
             law.cohesion[i] = preload;
         }
-        report = solver_->solve(pressed, law, solution);
+        report = solver_->solve(pressed, law, solution, definite);
         for (const Index i : bonded) solution.force[i] -= preload;
         if (std::all_of(bonded.begin(), bonded.end(),
                         [&](Index i) { return solution.states[static_cast<std::size_t>(i)] == ContactState::stick; }))

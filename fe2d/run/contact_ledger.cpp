@@ -467,7 +467,7 @@ void ContactLanding::release(const DynamicOperator& op, JointSolver& solver, Ste
 void ContactLanding::gap_values(const VectorXd& dam, const VectorXd& rock_values, const VectorXd& tangential,
                                 const StepRock& rock, VectorXd& gap)
 {
-    gap.noalias() = structure_.planes().gaps() * dam.tail(2 * structure_.interface());
+    gap.noalias() = structure_.gaps() * dam;
     if (structure_.has_rock()) {
         on_gaps_.noalias() = rock.trace() * rock_values;
         gap -= on_gaps_;
@@ -548,8 +548,7 @@ void ContactLanding::change_accelerations(const DynamicOperator& op, StepRock& r
     state.contact.force += force_;
 
     forces_.dam += dam.change_acceleration(c, free_.dam) / (1.0 + c.scheme.alpha);
-    on_gaps_.noalias() = structure_.planes().gaps().transpose() * force_;
-    forces_.dam.tail(on_gaps_.size()) -= on_gaps_;
+    forces_.dam.noalias() -= structure_.gaps().transpose() * force_;
     if (!structure_.has_rock()) return;
     by_trace_.noalias() = rock.trace().transpose() * force_;
     forces_.rock += by_trace_;

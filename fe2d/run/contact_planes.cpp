@@ -52,16 +52,18 @@ ContactPlanes::ContactPlanes(const Mesh& mesh, BelowBase below)
 {
     planes_.push_back(plane_of(mesh));
     nodes_ = mesh.contact.dam_nodes;
-    const Index one_sided = below == BelowBase::block ? 0 : 1; // planes whose lower side is no part of the structure
-    if (one_sided == 0) {
+    const auto tie = [&](const std::vector<int>& upper, const std::vector<int>& lower) {
+        for (std::size_t i = 0; i < upper.size(); ++i) ties_.push_back({upper[i], lower[i]});
+    };
+    if (below == BelowBase::block) {
         assert(mesh.contact.matching && mesh.has_rock());
-        nodes_.insert(nodes_.end(), mesh.contact.rock_nodes.begin(), mesh.contact.rock_nodes.end());
+        tie(mesh.contact.dam_nodes, mesh.contact.rock_nodes);
     }
     for (const LiftPlane& lift : mesh.lifts) {
         planes_.push_back(plane_of(lift));
         if (mesh.seam && planes_.size() == 2) turn(mesh, lift.lower_nodes, planes_.back()); // the base of the dam
         nodes_.insert(nodes_.end(), lift.upper_nodes.begin(), lift.upper_nodes.end());
-        nodes_.insert(nodes_.end(), lift.lower_nodes.begin(), lift.lower_nodes.end());
+        tie(lift.upper_nodes, lift.lower_nodes);
     }
     Index m = 0;
     for (const Plane& plane : planes_) {
@@ -70,32 +72,20 @@ ContactPlanes::ContactPlanes(const Mesh& mesh, BelowBase below)
     }
     area_.resize(m);
     weights_ = MatrixXd::Zero(m, count());
-    const Index n = static_cast<Index>(nodes_.size()), alone = one_sided * base().pairs();
-    Entries gaps, held, joined;
-    for (Index k = 0, node = 0; k < count(); ++k) {
+    Entries gaps;
+    for (Index k = 0; k < count(); ++k) {
         const Plane& plane = (*this)[k];
         const Index pairs = plane.pairs();
         area_.segment(first(k), pairs) = plane.area;
         weights_.col(k).segment(first(k), pairs) = plane.weights();
         for (Index i = 0; i < pairs; ++i)
             for (const Index c : {0, 1}) {
-                const Index upper = 2 * (node + i) + c, lower = upper + 2 * pairs, normal = first(k) + i;
-                for (const auto& [row, part] :
-                     {std::pair{normal, plane.normal_of(i)[c]}, {m + normal, plane.tangent_of(i)[c]}}) {
-                    gaps.emplace_back(row, upper, part);
-                    if (k >= one_sided) gaps.emplace_back(row, lower, -part);
-                    held.emplace_back(upper, row, part);
-                }
-                if (k < one_sided) continue;
-                const Index together = 2 * (first(k) - alone + i) + c;
-                joined.emplace_back(upper, together, 1.0);
-                joined.emplace_back(lower, together, 1.0);
+                const Index pair = first(k) + i;
+                gaps.emplace_back(pair, 2 * pair + c, plane.normal_of(i)[c]);
+                gaps.emplace_back(m + pair, 2 * pair + c, plane.tangent_of(i)[c]);
             }
-        node += k < one_sided ? pairs : 2 * pairs;
     }
-    gaps_ = matrix(2 * m, 2 * n, gaps);
-    held_ = matrix(2 * n, 2 * m, held);
-    joined_ = matrix(2 * n, 2 * (m - alone), joined);
+    gaps_ = matrix(2 * m, 2 * m, gaps);
 
     above_.assign(planes_.size(), {});
     above_.front().assign(static_cast<std::size_t>(mesh.dam_node_count), 1);

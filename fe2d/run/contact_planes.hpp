@@ -58,13 +58,9 @@ enum class BelowBase {
 /// All contact planes of a structure: the base, then the lift joints from bottom to top. Their m pairs are numbered
 /// through; vectors over all pairs have length 2m: normal components, then tangential ones (downstream).
 ///
-/// The dam's nodes on the planes are its interface: those of the base (with BelowBase::block the rock's after them), then of
-/// each lift joint the upper ones, then the lower ones. Vectors q over them are (x, y) by node. What the dam gives to the gaps is D q: the displacement of a base
-/// node, the difference of upper and lower node of a joint. Any q is
-///
-///     q = E x + N y,   D E = I,   D N = 0
-///
-/// x: base nodes, and upper nodes of the joints above their lower ones; y: both nodes of the joints moving together.
+/// The dam's nodes above the planes are its interface: those of the base, then of each lift joint. Vectors q over them are
+/// (x, y) by node: the displacement of a node of the base, the one of a node of a joint (with BelowBase::block of the base too)
+/// less that of the node below it, its tie. What the dam gives to the gaps is D q; D turns to the planes' axes, D⁻¹ = Dᵀ.
 class ContactPlanes {
 public:
     using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
@@ -86,9 +82,8 @@ public:
     const std::vector<char>& above(Eigen::Index plane) const { return above_[static_cast<std::size_t>(plane)]; }
 
     const std::vector<int>& nodes() const { return nodes_; } ///< the dam's, in interface order
-    const Matrix& gaps() const { return gaps_; }             ///< D, 2m x 2n
-    const Matrix& held() const { return held_; }             ///< E, 2n x 2m
-    const Matrix& joined() const { return joined_; }         ///< N, 2n x 2 (pairs of the joints)
+    const std::vector<Tie>& ties() const { return ties_; }   ///< of the interface's nodes that have a node below them
+    const Matrix& gaps() const { return gaps_; }             ///< D, 2m x 2m
 
 private:
     std::vector<Plane> planes_;
@@ -97,7 +92,8 @@ private:
     Eigen::MatrixXd weights_;
     std::vector<std::vector<char>> above_;
     std::vector<int> nodes_;
-    Matrix gaps_, held_, joined_;
+    std::vector<Tie> ties_;
+    Matrix gaps_;
 };
 
 /// Rigid translations of the dam's unknowns, in mesh order, one column by plane: everything above it goes along it by 1.

@@ -74,7 +74,7 @@ ContactStructure::ContactStructure(const Model& model, JointPath range, const Wa
     size_ = water_ ? water_->size : solid;
     if (water_) {
         const SparseMatrix all = corner_and(stiffness, water_->stiffness) + water_->damping + water_->mass;
-        order_water(all);
+        order_water(tied(all, planes_.ties()));
         stiffness_ = order_.to_new(corner_and(stiffness, water_->stiffness));
         mass_ = order_.to_new(corner_and(mass, water_->mass));
         edge_damping_ = order_.to_new(corner_and(edges, SparseMatrix(size_, size_)));
@@ -85,11 +85,12 @@ ContactStructure::ContactStructure(const Model& model, JointPath range, const Wa
         for (Index node = solid / 2; node < order_.nodes(); ++node)
             water_nodes_.push_back(order_.new_node[static_cast<std::size_t>(node)]);
     } else {
-        order_ = interface_last(stiffness, planes_.nodes());
+        order_ = interface_last(tied(stiffness, planes_.ties()), planes_.nodes());
         stiffness_ = order_.to_new(stiffness);
         mass_ = order_.to_new(mass);
         gyration_ = edge_damping_ = order_.to_new(edges);
     }
+    find_ties();
     for (Index node = dam / 2; node < solid / 2; ++node)
         rock_nodes_.push_back(order_.new_node[static_cast<std::size_t>(node)]);
     find_anchors();
@@ -108,7 +109,8 @@ ContactStructure::ContactStructure(const Model& model, JointPath range, const Wa
     dam_inertia_y_ = own_mass * unit_y;
     regular_ = true;
     if (rock_moves_) return; // the static stages are another structure's
-    static_factor_.emplace(water_ ? order_.to_new(at_rest(stiffness, water_->size)) : stiffness_, order_.inner);
+    static_factor_.emplace(water_ ? order_.to_new(at_rest(stiffness, water_->size)) : stiffness_, order_.inner, 0, 0,
+                           ties_);
     if (mesh.has_rock()) {
         const ContactPlane& contact = mesh.contact;
         slides_far_ = range == JointPath::finite;
@@ -135,6 +137,27 @@ void ContactStructure::order_water(const SparseMatrix& pattern)
     order_ = interface_last(pattern, last);
     order_.inner += floor_nodes_;
     for (Index& unknown : floor_) unknown = 2 * order_.new_node[static_cast<std::size_t>(unknown / 2)] + unknown % 2;
+}
+
+/// In the structure's order, and the gaps of any displacement.
+void ContactStructure::find_ties()
+{
+    std::vector<Eigen::Triplet<double>> entries;
+    const Index first = inner_unknowns();
+    const ContactPlanes::Matrix& of_jumps = planes_.gaps();
+    std::vector<int> below(static_cast<std::size_t>(interface()), -1);
+    for (const Tie& tie : planes_.ties()) {
+        ties_.push_back({order_.new_node[tie.upper], order_.new_node[tie.lower]});
+        below[static_cast<std::size_t>(ties_.back().upper - order_.inner)] = ties_.back().lower;
+    }
+    for (Index row = 0; row < of_jumps.rows(); ++row)
+        for (ContactPlanes::Matrix::InnerIterator it(of_jumps, row); it; ++it) {
+            entries.emplace_back(row, first + it.col(), it.value());
+            if (const int lower = below[static_cast<std::size_t>(it.col() / 2)]; lower >= 0)
+                entries.emplace_back(row, 2 * lower + it.col() % 2, -it.value());
+        }
+    gaps_.resize(of_jumps.rows(), dam_unknowns());
+    gaps_.setFromTriplets(entries.begin(), entries.end());
 }
 
 /// Upper blocks take theirs from the lower ones.

@@ -91,7 +91,9 @@ public:
     const ContactPlanes& planes() const { return planes_; }
     const Plane& plane() const { return planes_.base(); }                    ///< between dam and rock
     Eigen::Index pairs() const { return planes_.pairs(); }                   ///< m, of all planes
-    Eigen::Index interface() const { return order_.nodes() - order_.inner; } ///< the dam's nodes on the planes
+    Eigen::Index interface() const { return order_.nodes() - order_.inner; } ///< the dam's nodes above the planes
+    const std::vector<Tie>& ties() const { return ties_; }      ///< ContactPlanes::ties() in the structure's order
+    const ContactPlanes::Matrix& gaps() const { return gaps_; } ///< that displacements of the dam give, 2m x dam_unknowns()
     /// The dam's displacements without the translation of each of its blocks (that of one node on the plane below it):
     /// elastic forces do not feel it; taken off, metres of slip cost no digits of them.
     void take_off_translations(const Eigen::VectorXd& u, Eigen::VectorXd& deformation) const;
@@ -156,11 +158,14 @@ private:
     void condense_rock(const std::vector<int>& contact_nodes);
     void order_water(const SparseMatrix& pattern);
     void find_anchors();
+    void find_ties();
     void clear_rock(Eigen::VectorXd& vector) const;
 
     const Model& model_;
     const WaterBody* water_;
     ContactPlanes planes_;
+    std::vector<Tie> ties_;
+    ContactPlanes::Matrix gaps_;
     NodeOrder order_, rock_order_;
     std::vector<Eigen::Index>
         anchor_; ///< by node in the dam's order: first unknown of the node that stands for its block

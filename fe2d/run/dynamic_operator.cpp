@@ -48,7 +48,7 @@ DynamicOperator::DynamicOperator(const ContactStructure& structure, const RunDam
                                  const ReducedRock* radiating)
     : structure_(structure), slip_damping_(slip_damping), constants_(constants),
       factor_(dam_matrix(structure, damping, constants), structure.order().inner - structure.floor_nodes(),
-              structure.water() ? -1 : 0, structure.floor_nodes()),
+              structure.water() ? -1 : 0, structure.floor_nodes(), structure.ties()),
       gaps_(structure.planes().gaps())
 {
     if (!factor_.regular()) return;
@@ -118,10 +118,13 @@ VectorXd DynamicOperator::on_floor(const VectorXd& interface) const
     return values;
 }
 
-StepContact DynamicOperator::contact_at(const Pairing::Matrix& trace) const
+/// W⁻¹; where nothing but the dam gives way that is its Schur complement.
+MatrixXd DynamicOperator::sticking_stiffness(const Pairing::Matrix& trace) const
 {
-    const double w = 1.0 + constants_.scheme.alpha;
-    const Index m = structure_.pairs();
+    if (!has_floor() && !rock_step_ && !structure_.has_rock() && structure_.planes().count() > 1) {
+        const MatrixXd half = gaps_ * factor_.schur();
+        return half * gaps_.transpose();
+    }
     MatrixXd flexibility = dam_flexibility_;
     if (rock_step_) {
         const Index base = rock_step_->rock().base();
@@ -131,16 +134,32 @@ StepContact DynamicOperator::contact_at(const Pairing::Matrix& trace) const
         const MatrixXd half = trace * structure_.rock_flexibility();
         flexibility += rock_share_ * (half * trace.transpose());
     }
-    MatrixXd stiffness = symmetric_inverse(flexibility); // W⁻¹
+    return symmetric_inverse(flexibility);
+}
+
+StepContact DynamicOperator::contact_at(const Pairing::Matrix& trace) const
+{
+    const double w = 1.0 + constants_.scheme.alpha;
+    const Index m = structure_.pairs();
+    MatrixXd stiffness = sticking_stiffness(trace);
     StepContact contact;
-    contact.to_stuck = -stiffness / w;
-    if (slip_damping_.active()) {
-        const MatrixXd& weights = slip_damping_.weights;
+    if (!slip_damping_.active()) {
+        contact.to_stuck = -stiffness / w;
+    } else if (const MatrixXd& weights = slip_damping_.weights; weights.cols() == 1) {
         MatrixXd e = MatrixXd::Identity(2 * m, 2 * m);
         e.rightCols(m) -= z_ * weights.transpose();
         contact.to_stuck = -e.transpose() * stiffness / w;
         stiffness = e.transpose() * stiffness * e;
         stiffness.bottomRightCorner(m, m) += weights * (drag_ - zeta_) * weights.transpose();
+        stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
+    } else { // the same by products of a few columns
+        const MatrixXd pulled = z_.transpose() * stiffness;
+        const MatrixXd own = drag_ - zeta_ + pulled * z_;
+        contact.to_stuck = -stiffness / w;
+        contact.to_stuck.bottomRows(m) += weights * (pulled / w);
+        stiffness.bottomRows(m) -= weights * pulled;
+        stiffness.rightCols(m) -= pulled.transpose() * weights.transpose();
+        stiffness.bottomRightCorner(m, m) += weights * own * weights.transpose();
         stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
     }
     contact.stiffness = std::make_shared<const MatrixXd>(stiffness / w);

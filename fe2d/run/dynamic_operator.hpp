@@ -112,6 +112,7 @@ public:
 
 private:
     void couple_floor();
+    Eigen::MatrixXd sticking_stiffness(const Pairing::Matrix& trace) const;
 
     const ContactStructure& structure_;
     const SlipDamping& slip_damping_;

@@ -202,14 +202,8 @@ void ExplicitOperators::make_mass()
 
 void ExplicitOperators::make_pairs()
 {
-    const Index n = structure_.dam_unknowns(), m = structure_.pairs(), first = n - 2 * structure_.interface();
-    std::vector<Eigen::Triplet<double>> entries;
-    const ContactPlanes::Matrix& on_interface = structure_.planes().gaps();
-    for (Index row = 0; row < on_interface.rows(); ++row)
-        for (ContactPlanes::Matrix::InnerIterator it(on_interface, row); it; ++it)
-            entries.emplace_back(row, first + it.col(), it.value());
-    gaps.resize(2 * m, n);
-    gaps.setFromTriplets(entries.begin(), entries.end());
+    const Index m = structure_.pairs();
+    gaps = structure_.gaps();
     pull = inverse * SparseMatrix(gaps.transpose());
     const SparseMatrix delassus = gaps * pull;
     pairs.assign(static_cast<std::size_t>(m), {});

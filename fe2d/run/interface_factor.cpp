@@ -34,9 +34,11 @@ inline void take_pivot(const InterfaceFactor::Pivot& p, double first, double sec
 
 } // namespace
 
-InterfaceFactor::InterfaceFactor(const SparseMatrix& matrix, int inner_nodes, int negative, int negative_nodes)
-    : inner_(inner_nodes)
+InterfaceFactor::InterfaceFactor(const SparseMatrix& of_nodes, int inner_nodes, int negative, int negative_nodes,
+                                 std::vector<Tie> ties)
+    : inner_(inner_nodes), ties_(std::move(ties))
 {
+    const SparseMatrix matrix = tied(of_nodes, ties_);
     // The interface part may be singular; with a multiple of the identity added it is not, and taking it off again
     // costs one rounding because it is of the size of the diagonal.
     const Index n = matrix.rows(), inner = 2 * inner_, rest = n - inner, below = 2 * negative_nodes,
@@ -309,14 +311,28 @@ void InterfaceFactor::backward_one(double* const x, [[maybe_unused]] VectorLevel
     backward_lanes<1>(x);
 }
 
+/// Tᵀ b
+void InterfaceFactor::to_ties(Eigen::VectorXd& b) const
+{
+    for (const Tie& tie : ties_) b.segment<2>(2 * tie.lower) += b.segment<2>(2 * tie.upper);
+}
+
+/// T x
+void InterfaceFactor::from_ties(Eigen::VectorXd& x) const
+{
+    for (const Tie& tie : ties_) x.segment<2>(2 * tie.upper) += x.segment<2>(2 * tie.lower);
+}
+
 void InterfaceFactor::forward(Eigen::VectorXd& b, VectorLevel level) const
 {
+    to_ties(b);
     forward_one(b.data(), level);
 }
 
 void InterfaceFactor::backward(Eigen::VectorXd& b, VectorLevel level) const
 {
     backward_one(b.data(), level);
+    from_ties(b);
 }
 
 namespace {
@@ -363,6 +379,7 @@ void in_groups(std::span<Eigen::VectorXd* const> vectors, std::vector<double>& t
 
 void InterfaceFactor::forward(std::span<Eigen::VectorXd* const> b, std::vector<double>& gathered) const
 {
+    for (Eigen::VectorXd* one : b) to_ties(*one);
     in_groups(
         b, gathered, [this](double* x) { forward_one(x, vector_level()); },
         [this](double* x) { forward_together<2>(x); }, [this](double* x) { forward_together<4>(x); });
@@ -373,6 +390,7 @@ void InterfaceFactor::backward(std::span<Eigen::VectorXd* const> b, std::vector<
     in_groups(
         b, gathered, [this](double* x) { backward_one(x, vector_level()); },
         [this](double* x) { backward_together<2>(x); }, [this](double* x) { backward_together<4>(x); });
+    for (Eigen::VectorXd* one : b) from_ties(*one);
 }
 
 double InterfaceFactor::inner_product(const Eigen::Ref<const Eigen::VectorXd>& a,

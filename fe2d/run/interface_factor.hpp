@@ -16,6 +16,8 @@ namespace damslip::fe2d {
 ///
 ///     forward:   inner part becomes L⁻¹ b_i, interface part  b_c - A_ci A_ii⁻¹ b_i  (the condensed load)
 ///     backward:  from that and the interface displacements u_c:  u_i = A_ii⁻¹ (b_i - A_ic u_c)
+///
+/// With ties A is Tᵀ A T and u_c is q, their jumps: forward() begins with Tᵀ b, backward() ends with T u.
 class InterfaceFactor {
 public:
     /// @param matrix  symmetric, in the order (NodeOrder::to_new), both triangles. The inner part must be positive
@@ -24,7 +26,9 @@ public:
     /// @param negative  how many of the inner unknowns have a negative pivot; -1: any number
     /// @param negative_nodes  the first nodes of the interface with a negative definite diagonal block, pressures; the others' is
     /// positive
-    InterfaceFactor(const SparseMatrix& matrix, int inner_nodes, int negative = 0, int negative_nodes = 0);
+    /// @param ties  by the nodes of the matrix
+    InterfaceFactor(const SparseMatrix& matrix, int inner_nodes, int negative = 0, int negative_nodes = 0,
+                    std::vector<Tie> ties = {});
 
     bool regular() const { return regular_; }
     const Eigen::MatrixXd& schur() const { return schur_; } ///< A_cc - A_ci A_ii⁻¹ A_ic, unknowns (x, y) by node
@@ -72,7 +76,11 @@ private:
     void backward_lanes_avx2(double* x) const;
 #endif
 
+    void to_ties(Eigen::VectorXd& b) const;
+    void from_ties(Eigen::VectorXd& x) const;
+
     int inner_;
+    std::vector<Tie> ties_;
     bool regular_ = false;
     std::vector<int> begin_, row_; ///< blocks of column j: begin_[j] ... begin_[j+1]-1; row_: node
     std::vector<Block> block_;

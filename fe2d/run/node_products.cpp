@@ -35,6 +35,19 @@ SparseMatrix NodeOrder::to_new(const SparseMatrix& old_matrix) const
     return result;
 }
 
+SparseMatrix tied(const SparseMatrix& matrix, std::span<const Tie> ties)
+{
+    if (ties.empty()) return matrix;
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int i = 0; i < matrix.rows(); ++i) entries.emplace_back(i, i, 1.0);
+    for (const Tie& tie : ties)
+        for (const int c : {0, 1}) entries.emplace_back(2 * tie.upper + c, 2 * tie.lower + c, 1.0);
+    SparseMatrix t(matrix.rows(), matrix.cols());
+    t.setFromTriplets(entries.begin(), entries.end());
+    const SparseMatrix half = matrix * t;
+    return t.transpose() * half;
+}
+
 NodeOrder interface_last(const SparseMatrix& matrix, std::span<const int> interface_nodes)
 {
     assert(matrix.rows() % 2 == 0);

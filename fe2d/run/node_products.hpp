@@ -24,6 +24,14 @@ struct NodeOrder {
     SparseMatrix to_new(const SparseMatrix& old_matrix) const;
 };
 
+/// An interface node that moves by its unknowns beyond an inner one: u_upper = u_lower + q.
+struct Tie {
+    int upper = 0, lower = 0;
+};
+
+/// Tᵀ A T of u = T (inner unknowns, q). @param ties  by the nodes of the matrix
+SparseMatrix tied(const SparseMatrix& matrix, std::span<const Tie> ties);
+
 /// Minimum degree order of the inner nodes (Amestoy, Davis & Duff 1996) by the pattern of a matrix with two unknowns per
 /// node.
 NodeOrder interface_last(const SparseMatrix& matrix, std::span<const int> interface_nodes);

@@ -81,7 +81,7 @@ void let_water_ride(const ContactStructure& structure, const PressureProfile& up
     const VectorXd on_dam = uplift_load(model.mesh, model.dofs, uplift, ContactSide::dam);
     const VectorXd on_rock = uplift_load(model.mesh, model.dofs, uplift, ContactSide::rock);
     const VectorXd dam = structure.to_order(on_dam);
-    load.joint = -(structure.planes().gaps() * dam.tail(2 * structure.interface()));
+    load.joint = -(structure.gaps() * dam);
     load.rock -= structure.split(on_rock).rock;
 }
 

@@ -36,14 +36,8 @@ MatrixXd between(const ContactPlanes::Matrix& left, const MatrixXd& matrix, cons
 StaticOperator::StaticOperator(const ContactStructure& structure, double slip)
     : structure_(structure), trace_(structure.trace(slip))
 {
-    const ContactPlanes& planes = structure.planes();
-    const MatrixXd& interface = structure.static_factor().schur();
-    dam_stiffness_ = symmetric(between(planes.held(), interface, planes.held()));
-    if (planes.count() > 1) {
-        joined_ = inverse(between(planes.joined(), interface, planes.joined()));
-        coupling_ = between(planes.joined(), interface, planes.held());
-        dam_stiffness_ = symmetric(dam_stiffness_ - coupling_.transpose() * (joined_ * coupling_));
-    }
+    const ContactPlanes::Matrix to_interface = structure.planes().gaps().transpose();
+    dam_stiffness_ = symmetric(between(to_interface, structure.static_factor().schur(), to_interface));
     MatrixXd stiffness = dam_stiffness_;
     if (structure.has_rock()) {
         tied_flexibility_ = inverse(symmetric(structure.rock_stiffness() + between(trace_, dam_stiffness_, trace_)));
@@ -58,14 +52,10 @@ StaticOperator::StaticOperator(const ContactStructure& structure, double slip)
 
 StaticOperator::Reduced StaticOperator::reduced(const SplitLoad& load) const
 {
-    const ContactPlanes& planes = structure_.planes();
     VectorXd dam = load.dam;
     structure_.static_factor().forward(dam);
     Reduced result;
-    result.on_interface = dam.tail(2 * structure_.interface());
-    result.force = planes.held().transpose() * result.on_interface;
-    if (planes.count() > 1)
-        result.force -= coupling_.transpose() * (joined_ * (planes.joined().transpose() * result.on_interface));
+    result.force = structure_.planes().gaps() * dam.tail(2 * structure_.interface());
     if (structure_.has_rock()) result.rock = structure_.rock_load(load, trace_);
     return result;
 }
@@ -80,21 +70,16 @@ VectorXd StaticOperator::shut_force(const SplitLoad& load) const
 
 StaticState StaticOperator::displacements(const SplitLoad& load, const VectorXd& gap) const
 {
-    const ContactPlanes& planes = structure_.planes();
-    const Reduced f = reduced(load);
     StaticState state;
     VectorXd x = gap;
     if (structure_.has_rock()) {
+        const Reduced f = reduced(load);
         state.rock = tied_flexibility_ * (trace_.transpose() * (f.force - dam_stiffness_ * gap) + f.rock);
         x += trace_ * state.rock;
     }
-    VectorXd interface = planes.held() * x;
-    if (planes.count() > 1)
-        interface +=
-            planes.joined() * VectorXd(joined_ * (planes.joined().transpose() * f.on_interface - coupling_ * x));
     state.dam = load.dam;
     structure_.static_factor().forward(state.dam);
-    state.dam.tail(interface.size()) = interface;
+    state.dam.tail(x.size()) = structure_.planes().gaps().transpose() * x;
     structure_.static_factor().backward(state.dam);
     return state;
 }

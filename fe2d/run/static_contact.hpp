@@ -40,8 +40,8 @@ struct StaticState {
 
 /// The static stiffness of everything seen from the pairs, at one place of the dam on the rock.
 ///
-/// Nothing but contact holds the dam, so the Schur complement S of its stiffness on the interface is singular. The
-/// joints' common motions y are eliminated (ContactPlanes: q = E x + N y), which leaves forces f and stiffness S' of x;
+/// Nothing but contact holds the dam, so the Schur complement S' of its stiffness on the interface is singular. It has forces
+/// f and the gaps x of base and joints (ContactPlanes);
 /// the rock's contact nodes r then carry x = P r + g. With T = PᵀS'P + K_c, F = P K_c⁻¹ Pᵀ and the gaps g
 ///
 ///     λ = S'P T⁻¹ (Pᵀf + f_r) - f + V g,   V = (I + S'F)⁻¹ S'   (rigid base: λ = -f + S' g)
@@ -61,7 +61,6 @@ public:
 
 private:
     struct Reduced {
-        Eigen::VectorXd on_interface; ///< condensed load of the dam, interface [N/m]
         Eigen::VectorXd force;        ///< f: with the joints' common motions eliminated, 2m
         Eigen::VectorXd rock;         ///< f_r
     };
@@ -69,8 +68,6 @@ private:
 
     const ContactStructure& structure_;
     Pairing::Matrix trace_;            ///< P
-    Eigen::MatrixXd joined_;           ///< of y: S_yy⁻¹; empty without lift joints
-    Eigen::MatrixXd coupling_;         ///< S_yx
     Eigen::MatrixXd dam_stiffness_;    ///< S'
     Eigen::MatrixXd tied_flexibility_; ///< T⁻¹; empty: rigid base
     std::shared_ptr<const Eigen::MatrixXd> stiffness_;

@@ -188,7 +188,7 @@ double StepRock::slip(const DynamicState& state) const
 VectorXd StepRock::opening(const DynamicState& state) const
 {
     const Index m = structure_.pairs(), base = structure_.plane().pairs();
-    VectorXd gap = structure_.planes().gaps() * state.u.tail(2 * structure_.interface());
+    VectorXd gap = structure_.gaps() * state.u;
     gap.head(base) -= structure_.pairing().weights(slip(state)) * state.rock.head(structure_.rock_nodes());
     return gap.head(m) - geometric_rest_;
 }
