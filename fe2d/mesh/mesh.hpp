@@ -48,7 +48,7 @@ struct Element {
     std::array<int, 4> mid{-1, -1, -1,
                            -1}; ///< node in the middle of the edge from corner i to the next; -1: linear edge
     int centre = -1;            ///< node at the centre of a quadrilateral; -1: none
-    double share = 1.0; ///< mean of Section::thickness over its height: factor on stiffness and mass, not on stresses [-]
+    double share = 1.0; ///< mean of Section::thickness over its height: a factor on stiffness and mass, no stress [-]
 
     int size() const { return nodes[3] < 0 ? 3 : 4; } ///< corners
     bool linear() const { return mid[0] < 0 && mid[1] < 0 && mid[2] < 0 && mid[3] < 0 && centre < 0; }

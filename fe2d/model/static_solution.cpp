@@ -170,7 +170,8 @@ PressureProfile lift_water_profile(const Scene& scene, const LiftJoint& joint, d
         return profile;
     }
     if (joint.water == JointWater::none) return {};
-    const double unit_weight = water_unit_weight(scene) * share_above(scene.section, joint.elevation); // none between piers
+    // None between piers.
+    const double unit_weight = water_unit_weight(scene) * share_above(scene.section, joint.elevation);
     const double upstream = scene.reservoir ? std::max(0.0, scene.reservoir->level - joint.elevation) : 0.0;
     const double downstream = scene.tailwater ? std::max(0.0, scene.tailwater->level - joint.elevation) : 0.0;
     if (upstream == 0.0 && downstream == 0.0) return {};

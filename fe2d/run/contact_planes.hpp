@@ -19,7 +19,7 @@ struct Plane {
     std::vector<Eigen::Vector2d> turned;  ///< tangents of the segments
     bool upright = false;                 ///< an interface: no weight rests on it
     Eigen::VectorXd distance;          ///< of the pairs from the heel along the plane [m]
-    Eigen::VectorXd area; ///< of the base that belongs to a pair: length times share [m^2/m]; without thickness they sum to the length
+    Eigen::VectorXd area; ///< of the base that belongs to a pair, length times share [m^2/m]
     double share = 1.0;   ///< of the width that is concrete [-]
 
     Eigen::Index pairs() const { return area.size(); }

@@ -186,8 +186,8 @@ void HistoryRecorder::add()
     double open = 0.0, slipping = 0.0;
     for (Index i = 0; i < m; ++i) {
         const ContactState state = c.states[static_cast<std::size_t>(i)];
-        if (state == ContactState::open) open += plane.area[i];
-        if (is_slip(state)) slipping += plane.area[i];
+        if (state == ContactState::open) open += plane.area[i] / plane.share;
+        if (is_slip(state)) slipping += plane.area[i] / plane.share;
     }
     c.contact_force(contact_force_);
     const VectorXd& force = contact_force_;

@@ -209,10 +209,10 @@ void read_state(const ContactPlanes& planes, Index index, const ContactMemory& m
     for (Index i = 0; i < plane.pairs(); ++i) {
         const ContactState state = memory.states[static_cast<std::size_t>(first + i)];
         if (state == ContactState::open) {
-            result.open_length += plane.area[i];
+            result.open_length += plane.area[i] / plane.share;
             without += law.cohesion[first + i];
         }
-        if (is_slip(state)) result.slipping_length += plane.area[i];
+        if (is_slip(state)) result.slipping_length += plane.area[i] / plane.share;
     }
     if (!plane.bears_alone()) return read_forces(planes, index, memory, law, result);
     if (std::isfinite(result.sliding_factor)) result.sliding_factor -= without / std::abs(result.resultant.shear_force);

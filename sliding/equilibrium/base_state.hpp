@@ -113,7 +113,8 @@ UpliftResultant uplift_of_empty_joint(const BaseState& before, Side opens);
 BaseState with_open_joint(const Scene& scene, const StaticCase& static_case, const BaseState& before, Side opens,
                           const SeepageProfile& seepage);
 
-/// Area still bonded [m^2/m], the length times the share of the base: neither in the static crack nor in the one under the earthquake.
+/// Area still bonded [m^2/m], the length times the share of the base: neither in the static crack nor in the one under the
+/// earthquake.
 double bonded_length(const BaseState& before, const CrackedBase& base);
 
 // How far the ground may accelerate before the dam is no longer a block that stands flat on its base.

@@ -95,7 +95,8 @@ struct Equilibrium {
 /// - Static loads with the combination's levels and factors; water_factor covers reservoir, tailwater and crest water;
 /// hydrodynamic
 ///   force and inertia are not factored.
-/// - k_h, k_v: inertia (+m a_h, -m a_v) at the centroid (by k_profile its own share at each height) and the added mass' force -M^w a_g, a_g = (-a_h, +a_v).
+/// - k_h, k_v: inertia (+m a_h, -m a_v) at the centroid, with k_profile the sum of its own at each height, and the added
+///   mass' force -M^w a_g, a_g = (-a_h, +a_v).
 /// - Crack rule with an earthquake (k_h or k_v not 0): `none` no crack; `static` the crack of the static loads, no
 /// further opening;
 ///   `seismic-zero` no water pressure in what the earthquake opens (USBR 1987), `seismic-unchanged` pressure as before

@@ -35,8 +35,8 @@ ModeState Oscillator::after(const ModeState& now, double p0, double p1, double h
 
 namespace {
 
-/// Integral of y^p over the part of the polygon between two levels, 0 <= low: by Green the integrals of x y^p dy along the edges,
-/// closed for straight ones.
+/// Integral of y^p over the part of the polygon between two levels, 0 <= low: by Green the integrals of x y^p dy along the
+/// edges, closed for straight ones.
 double power_moment(const Polyline& polygon, double p, double low, double high)
 {
     double sum = 0.0;

@@ -21,8 +21,8 @@ double reservoir_period(const WaterColumn& water); ///< T_r = 4h/c of the water 
 /// - Goldgruber & Feldbacher (2013), (3-10...3-14): 0.707 rho h (1 - 0.011 phi) cos(A)^(0.6 + 0.005 phi),
 ///   A = (pi/2)(y - h_m)/(h - h_m), y = h - z above the reservoir bottom, h_m = h sqrt(phi/1000), phi in degrees, 0...30.
 /// The last two are pressures per *horizontal* acceleration: m_n = m/cos(phi) reproduces them
-/// (InclinedFaceRule::normal_component); InclinedFaceRule::printed takes m_n = m. InclinedFaceRule::horizontal has the m_n of the
-/// first; integrate_added_mass() leaves out the vertical part of its push.
+/// (InclinedFaceRule::normal_component); InclinedFaceRule::printed takes m_n = m. InclinedFaceRule::horizontal has the m_n of
+/// the first; integrate_added_mass() leaves out the vertical part of its push.
 /// Other formulas are those of their rows (AddedMassRow::per_area).
 ///
 /// @param depth       z below the water surface [m]; 0 at and above it, taken as h below the bottom

@@ -105,8 +105,9 @@ AddedMassIntegral integrate_added_mass(const AddedMass& method, const WaterColum
         if (length == 0.0 || lower.y >= water.depth || upper.y < 0.0) continue;
         if (upper.y > water.depth) upper = at_height(a, b, water.depth);
         if (lower.y < 0.0) lower = at_height(a, b, 0.0);
-        const bool upright = method.inclined_face == InclinedFaceRule::horizontal; // its vertical part is left out
-        add_piece(method, water, upper, lower, {dy / length, upright ? 0.0 : -dx / length}, std::atan2(dx, dy), share, sum);
+        Point normal{dy / length, -dx / length};
+        if (method.inclined_face == InclinedFaceRule::horizontal) normal.y = 0.0; // what it presses down is left out
+        add_piece(method, water, upper, lower, normal, std::atan2(dx, dy), share, sum);
     }
     return sum;
 }

@@ -69,7 +69,8 @@ bool gates_shut(const Scene& scene, const LoadCase& load_case)
     return scene.gate && !load_case.gates_open;
 }
 
-/// The share of hydrostatic_load() that meets the concrete of a section with a thickness: what piers carry between open gates.
+/// The share of hydrostatic_load() that meets the concrete of a section with a thickness: what piers carry between open
+/// gates.
 FaceLoad load_on_piers(const Section& section, const Polyline& face, double level, double unit_weight)
 {
     FaceLoad load;

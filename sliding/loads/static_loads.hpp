@@ -120,8 +120,8 @@ double dam_mass(const Scene& scene);
 /// ice; point forces; anchors through the base, -N d on the dam where they cross it, without any slip. Overtopping (level above the crest): the faces carry the trapezoid below the crest, and the flat
 /// crest between the two faces carries the still water standing on it, weight rho g (level - crest) b; flow, nappe and
 /// suction are not covered. Gates (Scene::gate) carry the water above the crest in the plane of the upstream face's upper end, and
-/// the crest is dry; gates between piers of the outline (Section::thickness) leave the load of the whole face, and open ones that on
-/// the piers' share of it. With both sides above the crest the higher level loads it. Ice acts at its own level; where
+/// the crest is dry; gates between piers of the outline (Section::thickness) leave the load of the whole face, and open ones
+/// that on the piers' share of it. With both sides above the crest the higher level loads it. Ice acts at its own level; where
 /// that is the scene's water surface it follows the surface of the load case.
 std::vector<Load> static_loads(const Scene& scene, const LoadCase& load_case);
 

@@ -29,7 +29,8 @@ MeasuredFrequency measured_at(const std::string& text)
 {
     const std::size_t equals = text.find('=');
     const auto level = parse_whole_number_text(text.substr(0, equals));
-    const auto frequency = equals == std::string::npos ? std::nullopt : parse_whole_number_text(text.substr(equals + 1));
+    const auto frequency =
+        equals == std::string::npos ? std::nullopt : parse_whole_number_text(text.substr(equals + 1));
     if (!level || !frequency || !(*frequency >= lowest && *frequency <= highest))
         refuse_usage(fmt::format("--at {} is no water level with a frequency.", text),
                      fmt::format("metres above the heel, \"=\", a frequency of {:g} to {:g} Hz", lowest, highest),
@@ -65,8 +66,10 @@ void calibrate_flags(CLI::App& sub, CalibrateArguments& a)
 {
     add_scene(sub, a.inputs);
     const CLI::Validator hertz = in_range(lowest, highest);
-    sub.add_option("--frequency", a.frequency, "first frequency measured with the water of the scene [Hz]")->check(hertz);
-    sub.add_option("--at", a.at, "first frequency at another water level: metres above the heel, =, Hz, as 94=3.47; repeated");
+    sub.add_option("--frequency", a.frequency, "first frequency measured with the water of the scene [Hz]")
+        ->check(hertz);
+    sub.add_option("--at", a.at,
+                   "first frequency at another water level: metres above the heel, =, Hz, as 94=3.47; repeated");
     sub.add_option("--frequency-empty", a.empty, "first frequency without water [Hz]")->check(hertz);
     sub.add_option("--second", a.second, "second frequency with the water of the scene [Hz]")->check(hertz);
     sub.add_option("--scatter", a.scatter, "standard deviation of a measured frequency over it")
@@ -83,7 +86,7 @@ void calibrate_flags(CLI::App& sub, CalibrateArguments& a)
 Command calibrate_command()
 {
     return {"calibrate", "moduli and damping from measured frequencies; their laws for fragility",
-            "damslip calibrate examples/pine_flat.toml --frequency 3.27 --at 94.5=3.47",
+            "damslip calibrate examples/own_dam.toml --frequency 3.5",
             with_flags<CalibrateArguments>(calibrate_flags, calibrate_scene)};
 }
 

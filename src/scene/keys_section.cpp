@@ -48,8 +48,7 @@ KeyGroup section_group(SectionInput& input)
                 at(&S::upper_dip)),
          pairs("thickness", none, none, Range::half_open(0, 1), "1 (solid)",
                "share of the monolith's width that is concrete, over the height: [metres above the heel, share], linear in "
-               "between, an elevation given twice is a step; piers, openings, buttresses. It is in weight, inertia, stiffness "
-               "and in the area of joints; water acts on the full width of the outline, but where gates are open",
+               "between, an elevation given twice is a step; water acts on the full width, but where gates are open",
                "[[0, 1], [48, 1], [48, 0.3], [62, 0.3]]", at(&S::thickness))},
         [&input](Scene&) -> void* { return &input; },
         [&input](const Scene& s) {

@@ -23,7 +23,8 @@ namespace damslip {
 struct Section {
     Polyline polygon;
     bool rock_slope = false; ///< given by the dimensions of a rock slope: a block of rock, not a dam
-    /// x = above the heel [m], y = share of the monolith's width that is concrete [-]; an elevation given twice is a step. Empty: 1
+    /// x = above the heel [m], y = share of the monolith's width that is concrete [-]; an elevation given twice is a step.
+    /// Empty: 1
     Polyline thickness = {};
 };
 
@@ -391,7 +392,7 @@ struct Combination {
     std::optional<double> cohesion;       ///< [Pa]
     double k_h = 0.0;                     ///< seismic coefficient a_h / 9.80665, positive drives downstream [-]
     double k_v = 0.0;                     ///< a_v / 9.80665, positive up [-]
-    std::vector<Point> k_profile; ///< x = above the heel [m], y = factor on k_h and k_v of the dam's inertia [-]; empty: 1
+    std::vector<Point> k_profile; ///< x = above the heel [m], y = factor on k_h and k_v of inertia [-]; empty: 1
     double friction_divisor = 1.0, cohesion_divisor = 1.0; ///< partial factors of safety of mu and c [-]
     std::optional<double> pga_fraction;   ///< takes the place of k_h: share of the largest PGA of the records [-]
     std::optional<double> pga_v_fraction; ///< of k_v: share of their largest vertical acceleration, which lightens [-]

@@ -93,7 +93,8 @@ SectionSums section_sums(const Section& section, const Polyline& factor)
         const auto [bottom, top] = std::minmax(a.y, b.y);
         for (const ShareBand& share : shares)
             for (const ShareBand& times : factors) {
-                const double low = std::max({bottom, share.from, times.from}), high = std::min({top, share.to, times.to});
+                const double low = std::max({bottom, share.from, times.from}),
+                             high = std::min({top, share.to, times.to});
                 if (!(high > low)) continue;
                 for (const auto& [place, weight] : gauss) {
                     const double y = 0.5 * (low + high) + 0.5 * place * (high - low);
@@ -390,7 +391,8 @@ void check_thickness(const Section& section, Findings& findings)
     const Polyline& t = section.thickness;
     const auto wrong = [&](std::string problem, std::string fix) {
         findings.wrong("section.thickness", "section.thickness " + std::move(problem),
-                       "pairs [metres above the heel, share of the width, above 0 to 1], from the bottom up", std::move(fix));
+                       "pairs [metres above the heel, share of the width, above 0 to 1], from the bottom up",
+                       std::move(fix));
     };
     if (section.rock_slope) return wrong("with a rock slope.", "delete it: a block of rock is solid");
     for (std::size_t i = 1; i < t.size(); ++i) {

@@ -10,8 +10,8 @@ double area(const Section& section);                     ///< [m^2], positive
 Point centroid(const Section& section);                  ///< [m]
 double polar_moment(const Section& section);             ///< second moment of area about the centroid [m^4]
 
-/// Levels between which the share of Section::thickness is linear: constant + slope y. The first begins at -infinity, the last
-/// ends at infinity; without a thickness there is one, of share 1.
+/// Levels between which the share of Section::thickness is linear: constant + slope y. The first begins at -infinity, the
+/// last ends at infinity; without a thickness there is one, of share 1.
 struct ShareBand {
     double from, to, constant, slope;
     double at(double y) const { return constant + slope * y; }

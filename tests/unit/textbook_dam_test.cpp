@@ -80,8 +80,8 @@ TEST(TextbookDam, EverythingTogetherIsTheSumByHand)
 
     const double normal = w1 + w2 + on_toe - u1 - u2 - lifted, shear = thrust - back + m * a + zangar;
     const double xc = (w1 * x1 + w2 * x2) / (w1 + w2), yc = (w1 * y1 + w2 * y2) / (w1 + w2);
-    const double about_heel = w1 * x1 + w2 * x2 + on_toe * x_toe - u1 * xu1 - u2 * xu2 - lifted * xc + thrust * 46.0 / 3.0 -
-                              back * 5.0 / 3.0 + m * a * yc + zangar_moment;
+    const double about_heel = w1 * x1 + w2 * x2 + on_toe * x_toe - u1 * xu1 - u2 * xu2 - lifted * xc +
+                              thrust * 46.0 / 3.0 - back * 5.0 / 3.0 + m * a * yc + zangar_moment;
     const double e = about_heel / normal - 20.0;
     const double toe = normal / 40.0 * (1.0 + 6.0 * e / 40.0), heel = normal / 40.0 * (1.0 - 6.0 * e / 40.0);
 
@@ -93,8 +93,8 @@ TEST(TextbookDam, EverythingTogetherIsTheSumByHand)
     EXPECT_NEAR(all.heel_stress / heel, 1.0, 1e-8);
     EXPECT_NEAR(all.sliding_factor, (200e3 * 40.0 + 0.8 * normal) / shear, 1e-8);
     const double holds = w1 * (40.0 - x1) + w2 * (40.0 - x2) + on_toe * (40.0 - x_toe) + back * 5.0 / 3.0;
-    const double turns = thrust * 46.0 / 3.0 + u1 * (40.0 - xu1) + u2 * (40.0 - xu2) + m * a * yc + zangar_moment +
-                         lifted * (40.0 - xc);
+    const double turns =
+        thrust * 46.0 / 3.0 + u1 * (40.0 - xu1) + u2 * (40.0 - xu2) + m * a * yc + zangar_moment + lifted * (40.0 - xc);
     EXPECT_NEAR(all.overturning_factor, holds / turns, 1e-8);
     EXPECT_NEAR(states[1].sliding_factor, (200e3 / 2.7 * 40.0 + 0.8 / 1.2 * normal) / shear, 1e-8);
 
@@ -116,7 +116,8 @@ TEST(TextbookDam, HorizontalRuleLeavesOutTheVerticalPart)
     const auto hydrodynamic = [&](const std::string& rule) {
         std::string with = text;
         with.replace(with.find("formula = \"zangar\"\n"), 19,
-                     "formula = \"zangar\"\nzangar_table_deg = [[0, 0.7], [90, 0.7]]\ninclined_face = \"" + rule + "\"\n");
+                     "formula = \"zangar\"\nzangar_table_deg = [[0, 0.7], [90, 0.7]]\ninclined_face = \"" + rule +
+                         "\"\n");
         for (const sliding::Load& load :
              sliding::evaluate_combinations(parse_scene(with, "dam.toml", FileCheck::skip)).front().loads)
             if (load.kind == sliding::LoadKind::hydrodynamic) return load.force.total();

@@ -103,9 +103,10 @@ TEST(Thickness, WaterActsOnTheFullWidth)
 // The joint at the step is between the piers: 0.4 of the area for stress, cohesion and uplift, the full width for the thrust.
 TEST(Thickness, ALiftHasTheAreaOfThePiers)
 {
-    const Scene scene = parsed(wall + "[reservoir]\nlevel_m = 18\nmodel = \"hydrostatic\"\n[uplift]\nmodel = \"none\"\n"
-                                      "[lifts]\nelevations_m = [10]\nfriction = 0.8\nbond = \"bonded\"\ncohesion_kPa = 300\n"
-                                      "tensile_strength_kPa = 1000\n");
+    const Scene scene =
+        parsed(wall + "[reservoir]\nlevel_m = 18\nmodel = \"hydrostatic\"\n[uplift]\nmodel = \"none\"\n"
+                      "[lifts]\nelevations_m = [10]\nfriction = 0.8\nbond = \"bonded\"\ncohesion_kPa = 300\n"
+                      "tensile_strength_kPa = 1000\n");
     const auto planes = sliding::lift_planes(scene, {{"rest", 0.0, 0.0}});
     const sliding::LiftState& s = planes.front().states.front();
     const double weight = 40.0 * concrete * g, thrust = 0.5 * water * g * 64.0;
@@ -135,8 +136,9 @@ TEST(Thickness, OpenGatesLeaveThePiersShare)
 
 TEST(Thickness, WaterAboveTheGatesIsRefused)
 {
-    EXPECT_NE(message_of(wall + "[reservoir]\nlevel_m = 19.5\n[gate]\ntop_m = 19\n[uplift]\nmodel = \"none\"\n").find("gate"),
-              std::string::npos);
+    EXPECT_NE(
+        message_of(wall + "[reservoir]\nlevel_m = 19.5\n[gate]\ntop_m = 19\n[uplift]\nmodel = \"none\"\n").find("gate"),
+        std::string::npos);
 }
 
 // K and M of an element with a share are those of a material of share times E and share times density.
@@ -189,7 +191,8 @@ TEST(Thickness, WrongTablesAreRefused)
     EXPECT_NE(message_of(with_table("[[0, 1], [10, 0]]")).find("section.thickness"), std::string::npos);
     EXPECT_NE(message_of(with_table("[[0, 1], [10, 1.2]]")).find("section.thickness"), std::string::npos);
     EXPECT_NE(message_of(with_table("[[10, 1], [0, 1]]")).find("in order"), std::string::npos);
-    EXPECT_NE(message_of(with_table("[[0, 1], [10, 1], [10, 0.5], [10, 0.4]]")).find("twice at most"), std::string::npos);
+    EXPECT_NE(message_of(with_table("[[0, 1], [10, 1], [10, 0.5], [10, 0.4]]")).find("twice at most"),
+              std::string::npos);
     EXPECT_NE(message_of(with_table("[[60, 1], [72, 0.3]]")).find("beside a dam"), std::string::npos);
     std::string inclined = with_table("[[-2, 1], [0, 0.5]]");
     inclined.replace(inclined.find("[10, 0]"), 7, "[10, -1]");

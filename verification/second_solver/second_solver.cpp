@@ -52,6 +52,8 @@ void check(const Ready& ready, SecondAnalysis analysis)
         refuse(ready, "a deck for CalculiX of elements that it does not have.",
                "mesh.element = \"q8\": quadratic quadrilaterals, which both programs integrate alike",
                "write  element = \"q8\"  in [mesh]");
+    if (!scene.section.thickness.empty())
+        refuse(ready, "section.thickness in a deck for CalculiX.", "a solid section", "delete thickness");
     if (analysis != SecondAnalysis::static_contact) return;
     if (!scene.foundation)
         refuse(ready, "a static contact deck of a dam without rock.", "a dam on rock", "add [foundation]");

@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <fmt/format.h>
 #include <numbers>
 #include <utility>
@@ -17,7 +18,8 @@ namespace damslip {
 namespace {
 
 constexpr double least_modulus = 1e8, largest_modulus = 1e12; ///< that a fit may come to [Pa]
-constexpr double told = std::numbers::ln2; ///< a modulus whose logarithm is known to less than this is told by the frequencies
+constexpr double told =
+    std::numbers::ln2; ///< a modulus whose logarithm is known to less than this is told by the frequencies
 
 [[noreturn]] void refuse_scene(const Scene& scene, std::string problem, std::string expected, std::string fix)
 {
@@ -127,8 +129,8 @@ void check(const Scene& given, const CalibrateOptions& options)
 }
 
 /// Gauss-Newton steps with the sensitivities of the start, and of the place where they come to rest. @param unknown  1: the dam alone
-Eigen::Vector2d fitted(const Fit& fit, const Scene& given, const Eigen::VectorXd& wanted, Eigen::Vector2d x, int unknown,
-                       Eigen::VectorXd& at, Eigen::MatrixX2d& j)
+Eigen::Vector2d fitted(const Fit& fit, const Scene& given, const Eigen::VectorXd& wanted, Eigen::Vector2d x,
+                       int unknown, Eigen::VectorXd& at, Eigen::MatrixX2d& j)
 {
     constexpr int most_steps = 40, same_sensitivity = 6;
     for (int step = 0; step < most_steps; ++step) {
@@ -142,7 +144,8 @@ Eigen::Vector2d fitted(const Fit& fit, const Scene& given, const Eigen::VectorXd
                 throw NotConverged(Diagnostic{given.file.string(), 0, 0,
                                               fmt::format("the frequencies ask for a modulus of {:.3g} GPa of the {}.",
                                                           e / units::GPa, k == 0 ? "dam" : "rock"),
-                                              "0.1 to 1000 GPa", "check unit, mode and water level of the frequencies"});
+                                              "0.1 to 1000 GPa",
+                                              "check unit, mode and water level of the frequencies"});
         at = fit.logs(x);
         if (change.cwiseAbs().maxCoeff() < 1e-6) return x;
     }
@@ -164,8 +167,8 @@ bool tells_rock(const Eigen::MatrixX2d& j, double scatter)
     return std::isfinite(deviation) && deviation < told;
 }
 
-/// Damping ratio of the first resonance of the dam's deflection, everything included: that of the oscillator through the answers around
-/// its peak, |H|^-2 = a (1 - u)^2 + 4 a zeta^2 u with u = (f/f_0)^2 [-]
+/// Damping ratio of the first resonance of the dam's deflection, everything included: that of the oscillator on a steady background,
+/// H (c_0 + i c_1 w - w^2) = n_0 + n_2 w^2, that fits the answers around its peak; zeta = c_1 / (2 sqrt(c_0)) [-]
 double resonance_damping(const Scene& scene, const Records& records, double frequency, const StopAsked& stop)
 {
     const Ready ready = prepare(scene, Method::finite_elements, records, {.stop = stop});
@@ -182,22 +185,28 @@ double resonance_damping(const Scene& scene, const Records& records, double freq
                         })->frequency;
     const double width = std::clamp(scene.damping.ratio, 0.01, 0.05);
     const auto near = answers(peak * (1.0 - width), peak * (1.0 + width), 9);
-    Eigen::MatrixX3d powers(static_cast<Eigen::Index>(near.size()), 3);
-    Eigen::VectorXd inverse(powers.rows());
-    for (Eigen::Index i = 0; i < powers.rows(); ++i) {
+    // Unknowns c_0, c_1, then real and imaginary parts of n_0 and n_2; w over that of the peak.
+    const auto count = static_cast<Eigen::Index>(near.size());
+    Eigen::MatrixXcd terms(count, 6);
+    Eigen::VectorXcd wanted(count);
+    constexpr std::complex<double> i1{0.0, 1.0};
+    for (Eigen::Index i = 0; i < count; ++i) {
         const fe2d::TransferPoint& p = near[static_cast<std::size_t>(i)];
-        const double u = p.frequency * p.frequency / (peak * peak);
-        powers.row(i) << 1.0, u, u * u;
-        inverse[i] = 1.0 / std::norm(p.deflection);
+        const double w = p.frequency / peak;
+        terms.row(i) << p.deflection, i1 * w * p.deflection, -1.0, -i1, -w * w, -i1 * w * w;
+        wanted[i] = w * w * p.deflection;
     }
-    const Eigen::Vector3d c = powers.colPivHouseholderQr().solve(inverse);
-    const double squared = std::sqrt(c[0] / c[2]); // (f_0/peak)^2
-    return std::sqrt(std::max(0.0, 0.25 * (2.0 + c[1] / (c[2] * squared))));
+    Eigen::MatrixXd parts(2 * count, 6);
+    parts << terms.real(), terms.imag();
+    Eigen::VectorXd right(2 * count);
+    right << wanted.real(), wanted.imag();
+    const Eigen::VectorXd c = parts.colPivHouseholderQr().solve(right);
+    return c[0] > 0.0 ? 0.5 * c[1] / std::sqrt(c[0]) : 0.0;
 }
 
 /// The ratio of the structure that makes the first resonance's as measured, by secants.
-FittedDamping fitted_damping(Scene scene, const Records& records, double measured, double frequency, const StopAsked& stop,
-                             std::vector<std::string>& notes)
+std::optional<FittedDamping> fitted_damping(Scene scene, const Records& records, double measured, double frequency,
+                                            const StopAsked& stop, std::vector<std::string>& notes)
 {
     constexpr double least = 0.002, most_steps = 8, close = 2e-3;
     const auto total = [&](double ratio) {
@@ -212,11 +221,12 @@ FittedDamping fitted_damping(Scene scene, const Records& records, double measure
         a = std::exchange(b, next);
         of_a = std::exchange(of_b, total(next));
     }
-    if (std::abs(of_b - measured) > close * measured)
-        notes.push_back(fmt::format("the waves into rock and water alone take {:.3g} % of the first mode, more than was measured: "
-                                    "damping.ratio is the least that is tried; see reservoir.bottom_reflection and [foundation]",
-                                    100.0 * (of_b - b)));
-    return {measured, b, of_b - b};
+    if (std::abs(of_b - measured) <= close * measured) return FittedDamping{measured, b, of_b - b};
+    notes.push_back(
+        fmt::format("waves into rock and water alone take {:.3g} % of the first mode, more than the {:.3g} % measured: "
+                    "damping.ratio stays; see reservoir.bottom_reflection and [foundation]",
+                    100.0 * (of_b - b), 100.0 * measured));
+    return std::nullopt;
 }
 
 } // namespace
@@ -227,7 +237,8 @@ Calibration calibrate(const Scene& given, const CalibrateOptions& options)
     const Fit fit(given, options);
     const Eigen::Index count = static_cast<Eigen::Index>(options.measured.size());
     Eigen::VectorXd wanted(count);
-    for (Eigen::Index i = 0; i < count; ++i) wanted[i] = std::log(options.measured[static_cast<std::size_t>(i)].frequency);
+    for (Eigen::Index i = 0; i < count; ++i)
+        wanted[i] = std::log(options.measured[static_cast<std::size_t>(i)].frequency);
     Eigen::Vector2d start(std::log(*given.dam.young_modulus), 0.0);
     if (given.foundation) {
         if (!given.foundation->material.young_modulus)
@@ -240,18 +251,28 @@ Calibration calibrate(const Scene& given, const CalibrateOptions& options)
     const Eigen::VectorXd before = fit.logs(start);
     Eigen::MatrixX2d j = fit.sensitivity(start, before);
     Calibration result;
-    const bool rock = tells_rock(j, options.scatter);
+
+    // 2. the moduli: of the rock too, where the frequencies tell it both before and after; their scatter
+    bool rock = tells_rock(j, options.scatter);
+    Eigen::VectorXd at;
+    Eigen::Vector2d x;
+    for (const Eigen::MatrixX2d first = j;;) {
+        at = before;
+        j = first;
+        x = fitted(fit, given, wanted, start, rock ? 2 : 1, at, j);
+        j = fit.sensitivity(x, at);
+        if (!rock || tells_rock(j, options.scatter)) break;
+        rock = false;
+    }
     const int unknown = rock ? 2 : 1;
     if (given.foundation && !rock)
-        result.notes.push_back(count < 2 ? "the rock keeps its modulus: one frequency tells one modulus"
-                                         : "the rock keeps its modulus: the frequencies do not tell it to a factor of two");
-
-    // 2. the moduli, their scatter
-    Eigen::VectorXd at = before;
-    const Eigen::Vector2d x = fitted(fit, given, wanted, start, unknown, at, j);
-    j = fit.sensitivity(x, at);
+        result.notes.push_back(count < 2
+                                   ? "the rock keeps its modulus: one frequency tells one modulus"
+                                   : "the rock keeps its modulus: the frequencies do not tell it to a factor of two");
     const Eigen::MatrixXd spread = covariance(j, unknown, options.scatter);
-    result.scene = fit.with(x, given);
+    result.scene = given;
+    result.scene.dam.young_modulus = std::exp(x[0]);
+    if (rock) result.scene.foundation->material.young_modulus = std::exp(x[1]);
     for (int k = 0; k < unknown; ++k)
         result.moduli.push_back({k == 0 ? "dam.young_modulus_GPa" : "foundation.young_modulus_GPa", std::exp(start[k]),
                                  std::exp(x[k]), std::sqrt(spread(k, k))});
@@ -259,13 +280,14 @@ Calibration calibrate(const Scene& given, const CalibrateOptions& options)
         result.rank_correlation =
             6.0 / std::numbers::pi * std::asin(0.5 * spread(0, 1) / std::sqrt(spread(0, 0) * spread(1, 1)));
     for (Eigen::Index i = 0; i < count; ++i)
-        result.frequencies.push_back({options.measured[static_cast<std::size_t>(i)], std::exp(before[i]), std::exp(at[i]),
-                                      j(i, 0), j(i, 1)});
+        result.frequencies.push_back(
+            {options.measured[static_cast<std::size_t>(i)], std::exp(before[i]), std::exp(at[i]), j(i, 0), j(i, 1)});
     result.misfit = (wanted - at).norm() / std::sqrt(static_cast<double>(count));
     if (result.misfit > 2.0 * options.scatter)
-        result.notes.push_back(fmt::format("the calibrated dam misses the frequencies by {:.2g} %, their scatter is {:.2g} %: "
-                                           "section, water level, rock or the modes named are not those measured",
-                                           100.0 * result.misfit, 100.0 * options.scatter));
+        result.notes.push_back(
+            fmt::format("the calibrated dam misses the frequencies by {:.2g} %, their scatter is {:.2g} %: "
+                        "section, water level, rock or the modes named are not those measured",
+                        100.0 * result.misfit, 100.0 * options.scatter));
 
     // 3. damping
     if (options.damping) {
@@ -273,7 +295,7 @@ Calibration calibrate(const Scene& given, const CalibrateOptions& options)
         if (scene.reservoir) scene.reservoir->model = fit.ready().scene.reservoir->model;
         const double first = result.frequencies.front().after;
         result.damping = fitted_damping(scene, fit.ready().pairs, *options.damping, first, options.stop, result.notes);
-        result.scene.damping.ratio = result.damping->ratio;
+        if (result.damping) result.scene.damping.ratio = result.damping->ratio;
     }
     return result;
 }

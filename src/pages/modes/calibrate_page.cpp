@@ -40,12 +40,13 @@ Table frequency_table(const Calibration& c)
 Table modulus_table(const Calibration& c)
 {
     using Row = FittedModulus;
-    return table_of<Row>("Moduli",
-                         {{{"key", "key"}, &Row::key},
-                          {{"scene_GPa", "scene", "GPa", 4}, [](const Row& r) { return r.before / units::GPa; }},
-                          {{"calibrated_GPa", "calibrated", "GPa", 4}, [](const Row& r) { return r.after / units::GPa; }},
-                          {{"beta", "beta of ln E", "–", 3}, &Row::beta}},
-                         c.moduli);
+    return table_of<Row>(
+        "Moduli",
+        {{{"key", "key"}, &Row::key},
+         {{"scene_GPa", "scene", "GPa", 4}, [](const Row& r) { return r.before / units::GPa; }},
+         {{"calibrated_GPa", "calibrated", "GPa", 4}, [](const Row& r) { return r.after / units::GPa; }},
+         {{"beta", "beta of ln E", "–", 3}, &Row::beta}},
+        c.moduli);
 }
 
 std::string headline(const Calibration& c)
@@ -62,10 +63,13 @@ std::vector<std::string> notes_of(const Scene& given, const Calibration& c)
 {
     std::vector<std::string> notes = c.notes;
     if (c.damping)
-        notes.push_back(fmt::format("damping: {:.3g} % measured, of which {:.2g} % are waves into rock and water: "
-                                    "damping.ratio = {:.4g}",
-                                    100.0 * c.damping->measured, 100.0 * c.damping->waves, c.damping->ratio));
-    notes.push_back("a frequency of small motions tells the dynamic modulus on a closed base; statics and cracks may ask for less");
+        notes.push_back(fmt::format(
+            "damping.ratio = {:.4g} gives the first resonance its {:.3g} %: {}", c.damping->ratio,
+            100.0 * c.damping->measured,
+            c.damping->waves >= 0.0 ? fmt::format("waves into rock and water take {:.2g} %", 100.0 * c.damping->waves)
+                                    : "the mass-proportional part does not act on the water"));
+    notes.push_back(
+        "a frequency of small motions tells the dynamic modulus on a closed base; statics and cracks may ask for less");
     for (std::string& note : note_texts(given.notes)) notes.push_back(std::move(note));
     return notes;
 }
@@ -83,8 +87,8 @@ std::string fragility_laws(const Calibration& c)
                             names.back(), m.key, m.after / units::GPa, m.beta);
     }
     if (c.rank_correlation)
-        text += fmt::format("[[probability.correlation]]\nbetween = [\"{}\", \"{}\"]\nspearman = {:.3f}\n", names[0], names[1],
-                            *c.rank_correlation);
+        text += fmt::format("[[probability.correlation]]\nbetween = [\"{}\", \"{}\"]\nspearman = {:.3f}\n", names[0],
+                            names[1], *c.rank_correlation);
     return text;
 }
 
@@ -118,8 +122,8 @@ void write_calibrated(const std::filesystem::path& file, const Calibration& c)
 {
     std::string text = fmt::format("# damslip {} calibrate: {}\n", program_version(), headline(c));
     for (const FittedFrequency& f : c.frequencies)
-        text += fmt::format("#   water {}, mode {}: measured {:.4g} Hz, calibrated {:.4g} Hz\n", water_words(f.measured),
-                            f.measured.mode, f.measured.frequency, f.after);
+        text += fmt::format("#   water {}, mode {}: measured {:.4g} Hz, calibrated {:.4g} Hz\n",
+                            water_words(f.measured), f.measured.mode, f.measured.frequency, f.after);
     write_file(file, text + resolved_toml(c.scene));
 }
 
