@@ -13,6 +13,7 @@ Headline with_failed_checks(Headline slip, const std::string& failed)
     if (failed.empty()) return slip;
     std::string verdict = slip.outcome == Outcome::none ? "no criterion" : slip.verdict;
     if (verdict.ends_with('.')) verdict.pop_back();
+    if (verdict.starts_with("Slip: ")) verdict.erase(0, 6);
     return {std::move(slip.sentence), Outcome::fail, "Slip: " + verdict + "; load combinations: FAIL " + failed};
 }
 
