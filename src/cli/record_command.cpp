@@ -183,7 +183,7 @@ int record_scale(const RecordScaleArguments& arguments, const Streams& streams)
     return exit_ok;
 }
 
-records::ResponseSpectrum spectrum_of(const Record& record, const RecordSpectrumArguments& a)
+records::ResponseSpectrum record_spectrum_of(const Record& record, const RecordSpectrumArguments& a)
 {
     if (!(a.ratio >= 0.0 && a.ratio <= 1.0))
         refuse_usage(fmt::format("--damping {} is not allowed.", a.ratio), "0 to 1", "5 % is 0.05");
@@ -200,7 +200,7 @@ int record_spectrum(const RecordSpectrumArguments& arguments, const Streams& str
 {
     const Record record = read(arguments.input);
     remark(record, streams);
-    const records::ResponseSpectrum spectrum = spectrum_of(record, arguments);
+    const records::ResponseSpectrum spectrum = record_spectrum_of(record, arguments);
     const Table table = spectrum_table(record, spectrum, arguments.ratio);
     if (!arguments.out.empty()) write_file(arguments.out, csv(table, {table.title}));
     Answer answer(json_header("record-spectrum"));

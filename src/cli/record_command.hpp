@@ -71,7 +71,7 @@ struct RecordSpectrumArguments {
     double from = 0.02, to = 4.0; ///< --from, --to [s]
     int count = 100;              ///< --count, 2 ... 10000
 };
-Table record_spectrum_table(const Record& record, const RecordSpectrumArguments& arguments);
+records::ResponseSpectrum record_spectrum_of(const Record& record, const RecordSpectrumArguments& arguments);
 int record_spectrum(const RecordSpectrumArguments& arguments, const Streams& streams);
 
 struct RecordGenerateArguments {
