@@ -22,7 +22,8 @@ std::vector<std::filesystem::path> example_files()
 {
     std::vector<std::filesystem::path> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(source_dir()) + "/examples"))
-        if (entry.path().extension() == ".toml") files.push_back(entry.path());
+        if (entry.path().extension() == ".toml" && entry.path().parent_path().filename() != "criteria") // no scenes
+            files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
 }
