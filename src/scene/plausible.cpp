@@ -541,6 +541,7 @@ constexpr std::array rows{
     Row{"combination.silt_factor", 0.5, 2, judgement, true},
     Row{"combination.ice_factor", 0.5, 2, judgement, true},
     Row{"combination.required_sliding_factor", 1, 4, safety},
+    Row{"combination.required_residual_factor", 1, 3, safety},
     Row{"combination.required_flotation_factor", 1, 2, safety},
     Row{"combination.required_overturning_factor", 1, 3, judgement},
 

@@ -91,7 +91,7 @@ TEST_F(CriteriaDocument, SaysWhatIsWrongWithFileAndLine)
         FAIL();
     } catch (const InputError& error) {
         EXPECT_EQ(error.diagnostics().front().problem, "criteria.document = \"mine.toml\": there is no such file.");
-        EXPECT_EQ(error.diagnostics().front().line, 8);
+        EXPECT_EQ(error.diagnostics().front().line, 9);
     }
 }
 
