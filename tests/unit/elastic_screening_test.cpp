@@ -88,7 +88,7 @@ TEST_F(ElasticScreening, RunsNoDamThatDoesNotStandAndNoWaterThatCannotBeReduced)
     const std::string level = "level_m = 60";
     const std::size_t at = text.find(level);
     ASSERT_NE(at, std::string::npos);
-    text.insert(at + level.size(), ", model = \"acoustic\", density_kg_m3 = 2000, bulk_modulus_MPa = 0.2");
+    text.insert(at + level.size(), ", model = \"acoustic\", density_kg_m3 = 2000, bulk_modulus_MPa = 0.6");
     text.replace(at, level.size(), "level_m = 20");
     write_file(folder / "dam.toml", text);
     const json wavy = screened({(folder / "dam.toml").string()});
