@@ -126,7 +126,7 @@ MatrixXd rows_to_plane(const Plane& plane, const MatrixXd& interface)
 
 VectorXd Plane::weights() const
 {
-    if (segments.size() < 2) return area / length();
+    if (segments.size() < 2) return area / area.sum();
     VectorXd weights = VectorXd::Zero(pairs());
     weights.head(main_pairs()) = area.head(main_pairs()) / area.head(main_pairs()).sum();
     return weights;

@@ -491,8 +491,8 @@ Answer screen_answer(const ScreenReportInput& in)
         out.add("verdicts", sliding::verdict_table(s.combinations), {.text = false, .file = "verdicts.csv"});
         const Table checks = sliding::check_matrix(s.combinations);
         if (checks.rows.empty())
-            out += "verdicts: no required values are given. criteria.document = \"FILE.toml\" judges, as "
-                   "examples/criteria/canada_1999.toml; or required_... in [[combination]]\n\n";
+            out += "verdicts: no required values are given: criteria.document = \"FILE.toml\" would judge, such as\n"
+                   "examples/criteria/canada_1999.toml, or required_... in [[combination]]\n\n";
         out.add("checks", checks, {.data = false, .turned = 2});
         out.add("criteria", criteria_table(s, in.scene), {.text = !s.planes.rows.empty(), .file = "criteria.csv"});
         out.add("yield", yield_table(s), {.file = "yield.csv", .turned = 1});
