@@ -304,6 +304,8 @@ Methods out_of_sight(const std::string& key)
     if (key == "ice.level_m" || key == "force[].x_m" || key == "force[].y_m")
         return methods::rigid; // matter to a block that tips
     if (key == "sliding.run_out_max_s") return methods::rigid; // it rests before the record ends; sabotage.run_out_off has it
+    if (key.starts_with("seam") || key == "foundation.ground_m")
+        return methods::fe; // a plain `fe` slides on the base; fe_seam_test has `fe --plane`
     if (key == "regressions.period_s") return methods::flexible;            // the scene states flexible_block.period_s
     return 0;
 }
