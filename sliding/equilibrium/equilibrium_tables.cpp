@@ -122,8 +122,10 @@ std::string failed_checks(const std::vector<Equilibrium>& all)
     for (const Equilibrium& e : all)
         for (const Check& check : e.checks) {
             if (check.verdict != Verdict::fail) continue;
-            const std::string what =
-                check.quantity.starts_with("sliding") ? "" : " " + check.quantity.substr(0, check.quantity.find(','));
+            const std::string what = check.quantity == "sliding, peak strength" ? ""
+                                     : check.quantity == "sliding, residual strength"
+                                         ? " residual"
+                                         : " " + check.quantity.substr(0, check.quantity.find(','));
             words += fmt::format("{}{}{} {}", words.empty() ? "" : "; ", e.name, what,
                                  unmet_words(check.value, check.required.value_or(0.0)));
         }

@@ -106,6 +106,8 @@ TEST_F(CriteriaDocument, TheShippedExampleIsJudged)
     }
     EXPECT_EQ(answer["criteria"][0]["combination"], "usual");
     EXPECT_EQ(answer["criteria"][0]["required"], 3.0);
+    // Two checks of one combination on sliding: the words say which is which.
+    EXPECT_NE(answer_of({"screen", example, "--rigid-only"}).out.find("usual residual 1.2 < 1.5"), std::string::npos);
 }
 
 } // namespace

@@ -187,12 +187,17 @@ TEST(FeReportPage, HeadlineJudgesBySlipStatusAndStaticState)
     scene.criteria.allowable_slip = 1.02 * slip;
     EXPECT_EQ(fe_headline(scene, runs).outcome, pages::Outcome::pass);
     fe2d::LiftResult neck;
+    neck.plane = "lift joint at 51.5 m";
     neck.name = "neck";
     neck.largest_slip = 1.03 * slip;
     neck.slip_error = 0.005 * slip;
     runs[1].fe.lifts = {neck};
     EXPECT_EQ(fe_headline(scene, runs).outcome, pages::Outcome::fail);
-    EXPECT_NE(fe_headline(scene, runs).sentence.find("lift joint neck"), std::string::npos);
+    EXPECT_NE(fe_headline(scene, runs).sentence.find("; lift joint neck "), std::string::npos);
+    runs[1].fe.lifts[0].name = "lift at 51.5 m"; // of [lifts]
+    EXPECT_NE(fe_headline(scene, runs).sentence.find("; lift joint at 51.5 m "), std::string::npos);
+    runs[1].fe.lifts[0].plane = runs[1].fe.lifts[0].name = "base"; // of a body on a seam
+    EXPECT_NE(fe_headline(scene, runs).sentence.find("; base "), std::string::npos);
     runs[1].fe.lifts.clear();
     scene.criteria.allowable_slip.reset();
     EXPECT_EQ(fe_headline(scene, runs).outcome, pages::Outcome::none);

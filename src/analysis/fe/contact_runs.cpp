@@ -104,7 +104,7 @@ bool ContactRuns::wake(const std::vector<fe2d::RunResult>& runs)
     if (names.empty()) return false;
     ++passes_to_wake_;
     ready_.scene = with_awake_lifts(std::move(ready_.scene), names);
-    watch_.phase(fmt::format("{} lifts wake, model {}", ready_.scene.lift_joints.size(), passes_to_wake_ + 1));
+    watch_.phase(fmt::format("awake lifts: {}, model {}", ready_.scene.lift_joints.size(), passes_to_wake_ + 1));
     model_.emplace(ready_.scene, options_);
     return true;
 }

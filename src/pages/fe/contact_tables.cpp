@@ -331,15 +331,23 @@ std::vector<std::string> run_notes(const std::vector<ContactRun>& runs, const st
     return notes;
 }
 
+/// What a run answers: its slip, the parts of its error and the verdict.
+std::vector<ContactColumn> answer_columns(const RunColumns& c, const ContactColumn& slip,
+                                          const std::vector<ContactRun>& runs)
+{
+    std::vector<ContactColumn> columns{c.record, c.polarity, c.status, slip};
+    if (few_modes(runs)) columns.push_back(c.modes_error);
+    columns.insert(columns.end(),
+                   {c.step_error, c.mesh_error, c.total_error, c.error_parts, c.max_slip, c.rigid_slip, c.verdict});
+    return columns;
+}
+
 } // namespace
 
 Table contact_run_table(const std::vector<ContactRun>& runs, const std::optional<double>& allowable)
 {
     const RunColumns c(allowable);
-    std::vector<ContactColumn> columns{c.record, c.polarity, c.status, c.slip};
-    if (few_modes(runs)) columns.push_back(c.modes_error);
-    columns.insert(columns.end(),
-                   {c.step_error, c.mesh_error, c.total_error, c.error_parts, c.max_slip, c.rigid_slip, c.verdict});
+    std::vector<ContactColumn> columns = answer_columns(c, c.slip, runs);
     if (few_modes(runs)) columns.insert(columns.end(), {c.modes, c.highest_frequency});
     columns.insert(columns.end(),
                    {c.steps, c.dt, c.unresolved, c.residual, c.energy_error, c.seconds, c.slid_at_least});
@@ -350,11 +358,7 @@ Table contact_run_table(const std::vector<ContactRun>& runs, const std::optional
 Table run_answer_table(const std::vector<ContactRun>& runs, const std::optional<double>& allowable)
 {
     const RunColumns c(allowable);
-    std::vector<ContactColumn> columns{c.record, c.polarity, c.status, c.slip_in_words};
-    if (few_modes(runs)) columns.push_back(c.modes_error);
-    columns.insert(columns.end(),
-                   {c.step_error, c.mesh_error, c.total_error, c.error_parts, c.max_slip, c.rigid_slip, c.verdict});
-    return table_of(run_title(runs), columns, runs, run_notes(runs, allowable));
+    return table_of(run_title(runs), answer_columns(c, c.slip_in_words, runs), runs, run_notes(runs, allowable));
 }
 
 Table run_solution_table(const std::vector<ContactRun>& runs, bool with_seconds)

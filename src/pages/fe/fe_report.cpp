@@ -1,18 +1,18 @@
 #include "pages/fe/fe_pages.hpp"
 
 #include "analysis/prepare/ready.hpp"
-#include "core/version.hpp"
 #include "core/file.hpp"
 #include "core/units.hpp"
+#include "core/version.hpp"
 #include "fe2d/run/slide_watch.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
 #include "scene/joint_bond.hpp"
+#include "scene/planes.hpp"
 #include "scene/plausible.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
 #include "scene/write.hpp"
-#include "scene/planes.hpp"
 #include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <algorithm>
@@ -39,8 +39,15 @@ const ContactRun* find(const std::vector<ContactRun>& runs, auto&& condition)
 struct LiftSlip {
     double slip = 0.0;  ///< largest |slip| of the lift joints in all runs [m]
     double error = 0.0; ///< what is open of it [m]; NaN: not known
-    std::string name;
+    std::string words;  ///< "lift joint neck", "base", "interface at 45 m"
 };
+
+/// "lift joint neck", "lift joint at 66 m", "base", "interface at 45 m": a body on a seam has joints other than lifts.
+std::string words_of(const fe2d::LiftResult& lift)
+{
+    const bool named = !lift.name.empty() && !lift.name.starts_with("lift at ");
+    return named && lift.plane.starts_with("lift joint") ? "lift joint " + lift.name : lift.plane;
+}
 
 LiftSlip largest_lift_slip(const std::vector<ContactRun>& runs)
 {
@@ -49,7 +56,7 @@ LiftSlip largest_lift_slip(const std::vector<ContactRun>& runs)
         for (std::size_t k = 0; k < r.fe.lifts.size(); ++k) {
             const fe2d::LiftResult& lift = r.fe.lifts[k];
             if (reported(r.fe.status, lift.largest_slip).value_or(0.0) > largest.slip)
-                largest = {lift.largest_slip, lift_error(r, k).total, lift.name.empty() ? lift.plane : lift.name};
+                largest = {lift.largest_slip, lift_error(r, k).total, words_of(lift)};
         }
     return largest;
 }
@@ -122,7 +129,7 @@ std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& run
                                        slip / mm, over.empty() ? "" : " over " + over, record_of(worst));
     out += error_text(slip_error(worst));
     if (const LiftSlip lift = largest_lift_slip(runs); lift.slip > no_slip)
-        out += fmt::format("; lift joint {} {:.4g} mm{}", lift.name, lift.slip / mm,
+        out += fmt::format("; {} {:.4g} mm{}", lift.words, lift.slip / mm,
                            std::isfinite(lift.error) ? fmt::format(" ± {} mm", two_digits(lift.error)) : "");
     if (worst.rigid)
         if (const auto rigid = reported(worst.rigid->status, worst.rigid->max_slip))
@@ -474,8 +481,9 @@ void add_points(const Scene& scene, const std::vector<ContactRun>& runs, Answer&
     answer.point("governs", governs);
     constexpr double wide = 0.1; // of the slip
     if (error.total > wide * std::abs(worst.fe.max_slip))
-        answer.point("look at", error.mesh > error.step ? "the ±, most of it the mesh's: a smaller mesh.size_m"
-                                                        : "the ±, most of it the step's: a smaller time.slip_tolerance");
+        answer.point("look at", error.mesh > error.step
+                                    ? "the ±, most of it the mesh's: a smaller mesh.size_m"
+                                    : "the ±, most of it the step's: a smaller time.slip_tolerance");
 }
 
 namespace {

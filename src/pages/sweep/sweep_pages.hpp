@@ -246,7 +246,7 @@ Table sweep_table(const Grid& grid, const std::vector<std::size_t>& ids, const S
 /// Takes a row and its cells in that table, which are overwritten by those of the next.
 using TakeLine = std::function<void(const SweepLine& line, const std::vector<Cell>& cells)>;
 
-/// The rows one after the other, none of them held. @param ids  ascending
+/// Makes the rows one by one and keeps none. @param ids  ascending
 void for_each_sweep_row(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome, bool mean,
                         const TakeLine& take);
 
