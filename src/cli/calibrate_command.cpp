@@ -45,6 +45,9 @@ std::vector<MeasuredFrequency> measured(const CalibrateArguments& a)
     for (const std::string& text : a.at) all.push_back(measured_at(text));
     if (a.empty) all.push_back({*a.empty, 0.0, 1});
     if (a.second) all.push_back({*a.second, {}, 2});
+    if (a.frequency && a.second && *a.second <= *a.frequency)
+        refuse_usage(fmt::format("--second {:g} is not above --frequency {:g}.", *a.second, *a.frequency),
+                     "the second frequency of the dam, above the first", "exchange them, or leave --second out");
     if (all.empty())
         refuse_usage("no frequency is given.", "--frequency, or --at LEVEL=FREQUENCY, --frequency-empty, --second",
                      "add  --frequency 3.47");

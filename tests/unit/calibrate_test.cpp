@@ -100,6 +100,15 @@ TEST(Calibrate, AFrequencyThatNoModulusGivesIsNoAnswer)
 {
     EXPECT_THROW(calibrate(parsed(dam(25.0, 0.0)), {.measured = {{90.0}}}), NotConverged);
     EXPECT_THROW(calibrate(parsed(dam(25.0, 0.0)), {.measured = {{4.0, 31.0, 1}}}), InputError);
+    // f goes with the root of E here: 25 GPa (f/f_0)^2 < 1 GPa is known before a fit.
+    const double f = frequency(dam(25.0, 0.0), 1);
+    try {
+        calibrate(parsed(dam(25.0, 0.0)), {.measured = {{0.19 * f}}});
+        ADD_FAILURE() << "0.9 GPa is no concrete";
+    } catch (const NotConverged& e) {
+        EXPECT_NE(std::string(e.what()).find("0.902 GPa or less of the dam"), std::string::npos) << e.what();
+    }
+    EXPECT_EQ(calibrate(parsed(dam(25.0, 0.0)), {.measured = {{0.21 * f}}}).moduli.size(), 1u); // 1.1 GPa
 }
 
 TEST(Calibrate, TheCommandPrintsLawsThatFragilityReads)
@@ -112,6 +121,7 @@ TEST(Calibrate, TheCommandPrintsLawsThatFragilityReads)
     EXPECT_NE(laws.find("key = \"dam.young_modulus_GPa\""), std::string::npos);
     EXPECT_NE(laws.find("beta = 0.04"), std::string::npos);
     EXPECT_EQ(answer_of({"calibrate", file}).code, 2);
+    EXPECT_EQ(answer_of({"calibrate", file, "--frequency", "3.4", "--second", "3.3"}).code, 2);
     EXPECT_EQ(answer_of({"calibrate", file, "--at", "60:3.4"}).code, 2);
     EXPECT_EQ(answer_of({"calibrate", file, "--frequency-empty", "3.4"}).code, 3);
 }

@@ -17,7 +17,8 @@ namespace damslip {
 
 namespace {
 
-constexpr double least_modulus = 1e8, largest_modulus = 1e12; ///< that a fit may come to [Pa]
+/// What a fit may come to [Pa]: rubble masonry has 1 GPa and more, weathered rock 0.1 GPa.
+constexpr double least_modulus_dam = 1e9, least_modulus_rock = 1e8, largest_modulus = 1e12;
 constexpr double told =
     std::numbers::ln2; ///< a modulus whose logarithm is known to less than this is told by the frequencies
 
@@ -128,6 +129,27 @@ void check(const Scene& given, const CalibrateOptions& options)
                      "delete method = \"none\" or the coefficients, or leave --damping out");
 }
 
+/// @param k  0: of the dam, 1: of the rock
+[[noreturn]] void refuse_modulus(const Scene& scene, int k, const std::string& modulus)
+{
+    throw NotConverged(Diagnostic{scene.file.string(), 0, 0,
+                                  fmt::format("the frequencies ask for a modulus of {} of the {}.", modulus,
+                                              k == 0 ? "dam" : "rock"),
+                                  fmt::format("{:g} to {:g} GPa",
+                                              (k == 0 ? least_modulus_dam : least_modulus_rock) / units::GPa,
+                                              largest_modulus / units::GPa),
+                                  "check unit, mode and water level of the frequencies"});
+}
+
+/// A frequency follows the dam's modulus at most as its square root: where even that leaves the range, no fit begins.
+/// @param modulus  of the scene [Pa]  @param ratio  measured frequency over the scene's
+void check_reach(const Scene& given, double modulus, double ratio)
+{
+    const double e = modulus * ratio * ratio;
+    if (e < least_modulus_dam) refuse_modulus(given, 0, fmt::format("{:.3g} GPa or less", e / units::GPa));
+    if (e > largest_modulus) refuse_modulus(given, 0, fmt::format("{:.3g} GPa or more", e / units::GPa));
+}
+
 /// Gauss-Newton steps with the sensitivities of the start, and of the place where they come to rest. @param unknown  1: the dam alone
 Eigen::Vector2d fitted(const Fit& fit, const Scene& given, const Eigen::VectorXd& wanted, Eigen::Vector2d x,
                        int unknown, Eigen::VectorXd& at, Eigen::MatrixX2d& j)
@@ -140,12 +162,9 @@ Eigen::Vector2d fitted(const Fit& fit, const Scene& given, const Eigen::VectorXd
         if (const double largest = change.cwiseAbs().maxCoeff(); largest > 1.0) change /= largest;
         x += change;
         for (int k = 0; k < unknown; ++k)
-            if (const double e = std::exp(x[k]); !(e > least_modulus && e < largest_modulus))
-                throw NotConverged(Diagnostic{given.file.string(), 0, 0,
-                                              fmt::format("the frequencies ask for a modulus of {:.3g} GPa of the {}.",
-                                                          e / units::GPa, k == 0 ? "dam" : "rock"),
-                                              "0.1 to 1000 GPa",
-                                              "check unit, mode and water level of the frequencies"});
+            if (const double e = std::exp(x[k]);
+                !(e > (k == 0 ? least_modulus_dam : least_modulus_rock) && e < largest_modulus))
+                refuse_modulus(given, k, fmt::format("{:.3g} GPa", e / units::GPa));
         at = fit.logs(x);
         if (change.cwiseAbs().maxCoeff() < 1e-6) return x;
     }
@@ -249,6 +268,7 @@ Calibration calibrate(const Scene& given, const CalibrateOptions& options)
 
     // 1. the scene as it is, and how its frequencies follow the moduli
     const Eigen::VectorXd before = fit.logs(start);
+    if (count == 1) check_reach(given, *given.dam.young_modulus, std::exp(wanted[0] - before[0]));
     Eigen::MatrixX2d j = fit.sensitivity(start, before);
     Calibration result;
 

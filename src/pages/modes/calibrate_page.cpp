@@ -56,6 +56,8 @@ std::string headline(const Calibration& c)
         words += fmt::format("{}E of the {} {:.4g} GPa (scene: {:.4g}), known to {:.2g} %", words.empty() ? "" : "; ",
                              m.key.starts_with("dam") ? "dam" : "rock", m.after / units::GPa, m.before / units::GPa,
                              100.0 * m.beta);
+    if (c.damping)
+        words += fmt::format("; damping.ratio {:.3g} (measured in all: {:.3g})", c.damping->ratio, c.damping->measured);
     return words + ".";
 }
 
