@@ -29,11 +29,12 @@ struct FragilityResult final : Result {
 
     pages::FragilityView view() const { return pages::view_of(*study, plan, runs, estimated); }
 
-    pages::Answer answer() const override
+    pages::Answer answer() const override { return pages::fragility_answer(view()); }
+    std::vector<std::pair<std::string, Table>> tables() const override
     {
-        pages::Answer all = pages::fragility_answer(view());
-        all.add("rate_parts", pages::rate_part_table(view()), {.text = false});
-        all.add("samples", pages::sample_table(view()), {.text = false});
+        std::vector<std::pair<std::string, Table>> all = answer().tables();
+        all.emplace_back("rate_parts", pages::rate_part_table(view()));
+        all.emplace_back("samples", pages::sample_table(view()));
         return all;
     }
     std::string first_table() const override { return "probabilities"; }

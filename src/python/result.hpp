@@ -22,6 +22,8 @@ class Result {
 public:
     virtual ~Result() = default;
     virtual pages::Answer answer() const = 0;         ///< of the command
+    /// By id: of the answer, and what the command writes into files alone (the rows of all runs).
+    virtual std::vector<std::pair<std::string, Table>> tables() const { return answer().tables(); }
     virtual std::string first_table() const = 0;      ///< id of the one people look at first
     virtual pages::Page page() const = 0; ///< of the report
     virtual pages::Headline headline() const = 0;

@@ -91,7 +91,7 @@ void add_results(py::module_& module)
     py::class_<Result, std::shared_ptr<Result>>(module, "Result")
         .def_property_readonly("tables",
                                [](const Result& result) {
-                                   const auto all = result.answer().tables();
+                                   const auto all = result.tables();
                                    const std::string first = result.first_table();
                                    py::dict tables;
                                    for (const bool is_first : {true, false})
