@@ -2,7 +2,7 @@
 # Installs what the project is built with (Debian 12, Ubuntu); does nothing when everything is there. Run by demo.sh, test.sh and package.sh.
 set -euo pipefail
 packages=(g++ cmake ninja-build pkg-config libeigen3-dev libgsl-dev libsuitesparse-dev libopenblas-dev libcli11-dev libtomlplusplus-dev
-          nlohmann-json3-dev libfmt-dev libspectra-dev libssl-dev zlib1g-dev libsqlite3-dev)
+          nlohmann-json3-dev libfmt-dev libspectra-dev libssl-dev zlib1g-dev libsqlite3-dev libxlsxwriter-dev)
 for part in "$@"; do
     case "$part" in
         tests) packages+=(libgtest-dev) ;;

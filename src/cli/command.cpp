@@ -147,6 +147,14 @@ void add_pdf(CLI::App& sub, std::filesystem::path& target)
         });
 }
 
+void add_sheet(CLI::App& sub, std::filesystem::path& target, const std::string& help)
+{
+    sub.add_option("--sheet", target, help)->check([](const std::string& path) -> std::string {
+        pages::Workbook::check_name(path);
+        return output_to(OutputPath::file, "--sheet")(path);
+    });
+}
+
 std::function<std::string(const std::string&)> output_to(OutputPath kind, const std::string& flag)
 {
     return [kind, flag](const std::string& path) -> std::string {

@@ -89,6 +89,7 @@ CLI::Option* add_out(CLI::App& sub, std::filesystem::path& target, OutputPath ki
 
 /// --pdf, of commands that have a report; checked before anything begins.
 void add_pdf(CLI::App& sub, std::filesystem::path& target);
+void add_sheet(CLI::App& sub, std::filesystem::path& target, const std::string& help); ///< --sheet, a workbook
 
 /// Check of an option that names output: what would fail after minutes is said before anything begins.
 /// @throws UsageError, from the check

@@ -10,6 +10,7 @@
 #include "core/input_error.hpp"
 #include "pages/fe/fe_pages.hpp"
 #include "pages/report/page.hpp"
+#include "pages/sheet/sheets.hpp"
 #include "pages/spectrum/spectrum_tables.hpp"
 
 #include <algorithm>
@@ -34,6 +35,7 @@ struct FeArguments {
     std::optional<int> modes;    ///< elastic modes kept by a reduced run, 1 ... 1000; none: its own choice
     std::filesystem::path out;   ///< folder for summary.json, history_*.csv, fields; empty: none
     std::filesystem::path pdf;   ///< the report on paper; empty: none
+    std::filesystem::path sheet; ///< forces on the base at the worst instant of each run, a workbook; empty: none
     std::optional<int> polarity; ///< -1 flips the horizontal component; none: the scene's, else both are run
     bool spread = false;         ///< run the other rock and the other water, too, on the worst record
     std::filesystem::path state_in, state_out; ///< files of the joints' state; empty: none
@@ -48,7 +50,7 @@ FeOptions fe_options(const FeArguments& arguments)
 {
     return {.polarity = arguments.polarity,
             .mesh_error = arguments.mesh_error,
-            .pair_histories = arguments.reports(),
+            .pair_histories = arguments.reports() || !arguments.sheet.empty(),
             .frames = arguments.frames.value_or(0),
             .reduced = arguments.reduced,
             .modes = arguments.modes,
@@ -112,8 +114,11 @@ int run_contact(const FeArguments& arguments, const Ready& prepared, const Spect
     if (arguments.reports()) page.emplace(shared);
     ModelNotes of_model(ready.scene, model);
     for (const std::string& note : bond_messages(ready.scene, model.model().mesh)) streams.remark(note);
+    std::vector<BaseInstant> instants;
     const std::vector<ContactRun> runs = all.run([&](ContactRun& r, const GroundMotion& motion) {
         of_model.add(r.record, motion);
+        if (!arguments.sheet.empty() && !r.fe.history.time.empty())
+            instants.push_back(worst_instant(r, base_strength(ready.scene)));
         keep_contact_run(arguments.out, shared, r, fields);
         if (page) page->add(r, motion);
         if (const std::string series = write_frames(arguments.out, {ready.scene, model, all.uplift()}, r);
@@ -130,6 +135,10 @@ int run_contact(const FeArguments& arguments, const Ready& prepared, const Spect
     put_answer(
         contact_answer(shared, runs, messages, spread), arguments, ready.scene, spectrum, fields,
         [&] { return page->page(runs, messages, spread); }, streams);
+    if (!instants.empty()) {
+        write_base_sheets(arguments.sheet, base_strength(ready.scene), instants);
+        name_report(arguments.sheet, streams);
+    }
     return runs.size() == all.whole() ? exit_code_of(runs) : exit_no_answer;
 }
 
@@ -180,6 +189,8 @@ int fe(const FeArguments& arguments, const Streams& streams)
                      : arguments.base == "tied" ? "--plane with --base tied."
                                                 : "--plane with --response-spectrum.",
                      "a seam in a full run", "leave one of them out");
+    if (!arguments.sheet.empty() && arguments.base == "tied")
+        refuse_usage("--sheet with --base tied.", "a dam that slides on its base", "leave one of them out");
     if (arguments.frames && arguments.base == "tied")
         refuse_usage("--frames with --base tied.", "a time series of a dam that slides and opens",
                      "leave one of them out");
@@ -240,6 +251,7 @@ void fe_flags(CLI::App& sub, FeArguments& a)
         ->excludes(reduced);
     add_response_spectrum(sub, a.spectrum);
     add_pdf(sub, a.pdf);
+    add_sheet(sub, a.sheet, "workbook (.xlsx) of the forces on the base where each run is nearest to sliding");
     add_jobs(sub, a.jobs, "threads, for both polarities side by side; 0: all cores");
 }
 

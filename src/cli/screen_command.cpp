@@ -11,11 +11,13 @@
 #include "core/text.hpp"
 #include "core/units.hpp"
 #include "pages/assess/assess_report.hpp"
+#include "pages/assess/work_plan_page.hpp"
 #include "pages/report/json.hpp"
 #include "pages/report/page.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
 #include "pages/screen/screen_pages.hpp"
+#include "pages/sheet/sheets.hpp"
 #include "scene/write.hpp"
 
 #include <algorithm>
@@ -35,6 +37,7 @@ struct ScreenArguments {
     RunInputs inputs;
     std::filesystem::path out;  ///< folder for summary.json, tables (CSV) and the resolved scene; empty: none
     std::filesystem::path pdf;  ///< the report on paper; empty: none
+    std::filesystem::path sheet; ///< limit equilibrium as a workbook of formulas; empty: none
     bool rigid_only = false;    ///< the elastic dam is left out
     bool rocking = false;       ///< the block that rocks, too, where the sliding one holds
     SpectrumArguments spectrum; ///< peaks by the modes, too
@@ -65,6 +68,8 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
                      "delete --rocking");
     if (arguments.spectrum.wanted)
         need_section(given, "damslip screen --response-spectrum", "a wedge is rigid: leave the flag out");
+    if (!arguments.sheet.empty())
+        need_section(given, "damslip screen --sheet", "a wedge has no load combinations: leave the flag out");
     const std::vector<LevelSpectrum> spectra = given_spectra(arguments.spectrum);
     const Ready ready = prepare(given, Method::rigid_block, options);
     for (const std::string& warning : record_warnings(ready.records())) streams.remark("note: " + warning);
@@ -94,6 +99,10 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
         print_pdf(screen_report(in), arguments.pdf);
         name_report(arguments.pdf, streams);
     }
+    if (!arguments.sheet.empty()) {
+        write_equilibrium_sheets(arguments.sheet, ready, s.combinations);
+        name_report(arguments.sheet, streams);
+    }
     return std::max(statuses_of(s).exit_code(), s.elastic ? exit_code_of(s.elastic->runs) : exit_ok);
 }
 
@@ -111,6 +120,7 @@ void screen_flags(CLI::App& sub, ScreenArguments& a)
     add_response_spectrum(sub, a.spectrum);
     add_out(sub, a.out, OutputPath::folder, "folder for summary.json, tables (CSV) and the resolved scene");
     add_pdf(sub, a.pdf);
+    add_sheet(sub, a.sheet, "workbook (.xlsx) of the load combinations as formulas, to check by hand");
     add_jobs(sub, a.jobs);
 }
 
@@ -132,6 +142,7 @@ struct AssessArguments {
     int jobs = 0;              ///< threads of the quick levels; 0: all cores
     std::filesystem::path out; ///< folder for report.html, assess.json, scene.resolved.toml; empty: none
     std::filesystem::path pdf; ///< the report as PDF; empty: none
+    bool plan = false;         ///< what it would do, in place of doing it
 };
 
 Scene scene_to_assess(const AssessArguments& a, const Streams& streams)
@@ -152,16 +163,19 @@ int assess_dam(const AssessArguments& a, const Streams& streams)
 {
     const Scene given = scene_to_assess(a, streams);
     TerminalWatch watch(streams);
+    const bool writes = !a.out.empty() || !a.pdf.empty();
+    std::optional<WorkPlan> plan;
+    if (a.plan || writes) plan = plan_work(given, {a.budget, a.jobs}, watch);
+    if (a.plan) {
+        const Answer answer = work_plan_answer(*plan, given);
+        put_answer(answer, "--out DIR", streams);
+        write_assessment(a, given, answer, work_plan_page(*plan, given), "plan.json", streams);
+        return exit_ok;
+    }
     const Assessment assessment = assess(given, {a.budget, a.jobs}, watch);
     const Answer answer = assess_answer(assessment, given);
     put_answer(answer, "--out DIR", streams);
-    if (!a.out.empty()) {
-        write_file(a.out / "assess.json", answer.json().dump(2) + "\n");
-        write_file(a.out / "scene.resolved.toml", resolved_toml(given));
-        write_file(a.out / "report.html", page_html(assess_page(assessment, given)));
-        name_report(a.out / "report.html", streams);
-    }
-    if (!a.pdf.empty()) print_pdf(page_html(assess_page(assessment, given)), a.pdf);
+    if (writes) write_assessment(a, given, answer, assess_page(assessment, given, *plan), "assess.json", streams);
     return exit_code_of(assessment);
 }
 
@@ -172,7 +186,8 @@ void assess_flags(CLI::App& sub, AssessArguments& a)
     add_friction(sub, a.inputs);
     sub.add_option("--budget", a.budget, "seconds of wall time; what does not fit is left out and named")
         ->capture_default_str();
-    add_out(sub, a.out, OutputPath::folder, "folder for report.html, assess.json and the resolved scene");
+    sub.add_flag("--plan", a.plan, "nothing runs: models in order, premises, what is judged by what, what is left out, seconds");
+    add_out(sub, a.out, OutputPath::folder, "folder for report.html, assess.json (plan.html, plan.json) and the resolved scene");
     add_pdf(sub, a.pdf);
     add_jobs(sub, a.jobs, "threads of the quick levels; 0: all cores");
 }

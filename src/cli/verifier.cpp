@@ -35,6 +35,17 @@ void verify_flags(CLI::App& sub, VerifyArguments& a)
     sub.add_option("--svg", a.svg, "with --external: scatter plot of slips, ours over theirs");
     sub.add_flag("--markdown", a.markdown, "print the results as a page; with --external docs/evidence.md");
     sub.add_flag("--list", a.list, "print the ids of the cases alone");
+    sub.add_option("--manual", a.manual,
+                   "verification manual (.pdf or .html): every case by what it rests on, sheets, hard cases, results of others, errata")
+        ->check([](const std::string& path) -> std::string {
+            const std::string end = std::filesystem::path(path).extension().string();
+            if (end == ".pdf")
+                check_pdf(path);
+            else if (end != ".html")
+                refuse_usage("--manual " + path + " has no form.", "a file that ends in .pdf or .html", "for example  --manual manual.pdf");
+            return end == ".html" ? output_to(OutputPath::file, "--manual")(path) : "";
+        });
+    sub.add_flag("--digest", a.digest, "run all cases and print the digest of references, tolerances and verdicts alone");
 }
 
 void study_flags(CLI::App& sub, StudyArguments& a)
@@ -48,15 +59,14 @@ void study_flags(CLI::App& sub, StudyArguments& a)
     sub.add_flag("--resume", a.resume, "go on where a study with the same --out stopped");
 }
 
-/// Where this program stands, without its name. Empty where the system does not say.
+} // namespace
+
 std::filesystem::path own_folder()
 {
     char path[PATH_MAX];
     const ssize_t length = ::readlink("/proc/self/exe", path, sizeof path);
     return length > 0 ? std::filesystem::path(std::string(path, static_cast<std::size_t>(length))).parent_path() : "";
 }
-
-} // namespace
 
 Command verify_command(Carry<VerifyArguments> verify)
 {

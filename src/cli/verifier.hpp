@@ -20,6 +20,8 @@ struct VerifyArguments {
     bool hard = false;         ///< the hard cases instead
     bool external = false;     ///< results of others instead; `filter` is then the folder of what is not shipped
     std::filesystem::path svg; ///< scatter plot of those
+    std::filesystem::path manual; ///< the verification manual, .pdf or .html; empty: none
+    bool digest = false;          ///< print the digest of the verification record alone
 };
 
 struct StudyArguments {
@@ -48,6 +50,9 @@ using Carry = std::function<int(const Arguments&, const Streams&)>;
 Command verify_command(Carry<VerifyArguments> verify);
 Command study_command(Carry<StudyArguments> study);
 Command mesh_command(Carry<MeshArguments> calculix); ///< only --to calculix is carried out by the second program
+
+/// Where this program stands, without its name. Empty where the system does not say.
+std::filesystem::path own_folder();
 
 /// Starts `arguments` in damslip-verify, which stands beside this program or on the PATH.
 /// @throws InputError where there is none

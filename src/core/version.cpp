@@ -10,6 +10,11 @@ std::string program_version()
     return DAMSLIP_VERSION;
 }
 
+std::string program_verification()
+{
+    return DAMSLIP_VERIFICATION;
+}
+
 namespace {
 
 VectorLevel find_vector_level()

@@ -4,7 +4,8 @@
 
 namespace damslip {
 
-std::string program_version(); ///< "0.2.0"
+std::string program_version();      ///< "0.2.0"
+std::string program_verification(); ///< SHA-256 of the verification record that the release was made with (verification/record.sha256)
 
 /// Which vector instructions hot loops use.
 ///

@@ -188,6 +188,31 @@ std::string resolved_toml(const Scene& given, RecordPaths paths)
     return out;
 }
 
+std::vector<UsualValue> usual_values(const Scene& given)
+{
+    const Scene scene = with_own_choices(given);
+    SectionInput section;
+    std::vector<UsualValue> values;
+    for (const KeyGroup& group : key_groups(section)) {
+        if (group.name == "section" || group.name == "mesh" || group.name == "time" || group.name == "sliding" ||
+            (scene.wedge && !belongs_to_wedge(group.name)))
+            continue;
+        const std::vector<const void*> items = group.items(scene);
+        for (std::size_t i = 0; i < items.size(); ++i)
+            for (const Key& key : group.keys) {
+                if (!key.usual || (key.applies && !key.applies(items[i]))) continue;
+                std::string written = line(key, key.slot(const_cast<void*>(items[i])), RecordPaths::file_names);
+                if (written.empty()) continue;
+                written.pop_back(); // the end of the line
+                const std::size_t at = written.find(" = ");
+                const std::string number = items.size() > 1 ? fmt::format(" ({})", i + 1) : "";
+                values.push_back({group.name + "." + written.substr(0, at) + number, written.substr(at + 3), *key.usual,
+                                  key.units.front()});
+            }
+    }
+    return values;
+}
+
 std::string scene_hash(const Scene& scene)
 {
     Scene computed = scene;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "scene/key_table.hpp"
 #include "scene/scene.hpp"
 
 #include <string>
+#include <vector>
 
 namespace damslip {
 
@@ -13,6 +15,17 @@ enum class RecordPaths {
 
 /// The scene with all defaults as TOML, sizes of elements and what else the program chooses by itself included. Reading it back gives the same results, bit for bit.
 std::string resolved_toml(const Scene& scene, RecordPaths paths = RecordPaths::absolute);
+
+/// A number of the resolved scene that has a usual range.
+struct UsualValue {
+    std::string key;   ///< "contact.friction"; of several entries of a list with the place: "seam.friction (2)"
+    std::string value; ///< as a scene file holds it
+    Usual usual;
+    UnitSuffix unit; ///< of the range
+};
+
+/// Loads, strengths, moduli, damping: what a dam is judged by. Sizes of section and mesh are left out.
+std::vector<UsualValue> usual_values(const Scene& scene);
 
 /// SHA-256 of the resolved scene; the same for the same model wherever its file lies, whatever its name and title and
 /// however it was written.

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <map>
 
 namespace damslip {
 namespace {
@@ -90,6 +91,52 @@ TEST_F(AssessRun, EveryAssumptionIsARunOfTheSceneSoChanged)
     const std::string page = read_file(folder / "out" / "report.html");
     EXPECT_NE(page.find("Change of the slip with each assumption changed"), std::string::npos);
     EXPECT_NE(page.find("PASS"), std::string::npos);
+}
+
+// The plan names what will run and in which order, without a slip; the report of the run repeats it with what came out.
+TEST_F(AssessRun, ThePlanIsWhatRuns)
+{
+    const std::string out = (folder / "out").string();
+    const ProgramAnswer planned = answer_of({"assess", scene(), "--budget", "100", "--plan", "--json", "--quiet", "--out", out});
+    ASSERT_EQ(planned.code, 0) << planned.talk;
+    const Json plan = Json::parse(planned.out);
+    EXPECT_EQ(Json::parse(read_file(folder / "out" / "plan.json")), plan);
+    std::vector<std::string> order;
+    std::map<std::string, int> motions;
+    double seconds = 0.0;
+    for (const Json& row : plan["models"]) {
+        order.push_back(row["model"]);
+        motions[row["model"]] = row["motions"];
+        EXPECT_EQ(row["fits"], "yes") << row;
+        EXPECT_GT(row["estimated_s"].get<double>(), 0.0) << row;
+        seconds += row["estimated_s"].get<double>();
+    }
+    EXPECT_EQ(order, (std::vector<std::string>{"limit equilibrium, regressions, rigid block", "flexible block", "finite elements",
+                                               "response spectrum", "rigid block without each effect",
+                                               "finite elements, one assumption changed"}));
+    EXPECT_NEAR(plan["seconds"].get<double>(), seconds, 1e-9 * seconds);
+    EXPECT_EQ(plan["judged"][0]["required"], "≤ 800 mm");
+    EXPECT_EQ(planned.out.find("slip_mm"), std::string::npos);
+    bool friction = false;
+    for (const Json& row : plan["values"]) friction = friction || (row["key"] == "contact.friction" && row["value"] == "0.7");
+    EXPECT_TRUE(friction) << plan["values"];
+
+    const ProgramAnswer run = answer_of({"assess", scene(), "--budget", "100", "--json", "--quiet", "--out", out});
+    const Json all = Json::parse(run.out);
+    EXPECT_EQ(motions["finite elements"], 2);
+    EXPECT_EQ(static_cast<std::size_t>(motions["finite elements, one assumption changed"]), all["assumptions"].size());
+    const std::string page = read_file(folder / "out" / "report.html");
+    EXPECT_NE(page.find("Work plan, and what came of it"), std::string::npos);
+    EXPECT_NE(page.find(fmt::format("{:.4g} mm", all["recommended"]["slip_mm"].get<double>())), std::string::npos);
+    EXPECT_NE(read_file(folder / "out" / "plan.html").find("What is judged by what"), std::string::npos);
+}
+
+TEST_F(AssessRun, APlanSaysWhatTheBudgetDoesNotHold)
+{
+    const ProgramAnswer planned = answer_of({"assess", scene(), "--budget", "0.001", "--plan", "--json", "--quiet"});
+    const Json plan = Json::parse(planned.out);
+    EXPECT_EQ(plan["models"].back()["fits"], "not whole");
+    EXPECT_NE(answer_of({"assess", scene(), "--budget", "0.001", "--plan", "--full"}).out.find("raise --budget"), std::string::npos);
 }
 
 // The block does not hold without an earthquake: no level has a slip, which is no pass.

@@ -223,7 +223,7 @@ TEST(Assess, WhatIsLeftOutIsNamedInEveryForm)
     EXPECT_NE(pages::assess_answer(a, a.ready.given).full().find(sentence), std::string::npos);
     const auto notes = pages::assess_answer(a, a.ready.given).json()["notes"];
     EXPECT_NE(std::find(notes.begin(), notes.end(), sentence), notes.end());
-    const std::vector<std::string> warnings = pages::assess_page(a, a.ready.given).warnings;
+    const std::vector<std::string> warnings = pages::assess_page(a, a.ready.given, {.ready = a.ready, .fe = {}, .rock_change = {}, .parts = {}}).warnings;
     EXPECT_NE(std::find(warnings.begin(), warnings.end(), sentence), warnings.end());
 }
 

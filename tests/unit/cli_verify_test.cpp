@@ -1,10 +1,14 @@
 // The commands that print what is verified, and the one that prints a mesh.
 #include "core/file.hpp"
+#include "verification/pages/manual.hpp"
 #include "verifier_answer.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <unistd.h>
 
@@ -52,6 +56,42 @@ TEST(CliVerify, AFilterThatFindsNothingIsRefused)
         EXPECT_EQ(a.code, 2);
         EXPECT_NE(a.talk.find("no case has \"no.such.case\" in its name"), std::string::npos) << a.talk;
     }
+}
+
+// The manual has every case in a class, references apart from our values, and a digest that a reference, a tolerance or a verdict moves
+// and the last bits of a value do not.
+TEST(CliVerify, TheManualKeepsReferencesAndOurValuesApart)
+{
+    const verification::Registry cases = verification::all_cases();
+    std::vector<pages::CaseOutcome> outcomes;
+    std::array<int, 3> of_basis{};
+    for (const verification::Case& c : cases) {
+        ++of_basis[static_cast<std::size_t>(pages::basis_of(c))];
+        if (c.id == "sliding.block.pulses" || c.id == "sliding.empirical.values" || c.id == "sliding.equilibrium.mirror")
+            outcomes.push_back({&c, c.run(), 0.0});
+    }
+    ASSERT_EQ(outcomes.size(), 3u);
+    EXPECT_EQ(of_basis[1], 18); // every id of the lists is one of a case
+    EXPECT_EQ(of_basis[2], 48);
+    EXPECT_EQ(pages::cases_with_sheet().size(), 20u);
+    for (const std::string& id : pages::cases_with_sheet())
+        EXPECT_TRUE(std::any_of(cases.begin(), cases.end(), [&](const verification::Case& c) { return c.id == id; })) << id;
+
+    const pages::Page page = pages::manual_page(outcomes, {}, {}, "none known");
+    EXPECT_EQ(page.headline.outcome, pages::Outcome::fail); // three cases are not the record of the release
+    const std::string html = pages::page_html(page);
+    for (const char* words : {"published figure", "another method of our own", "Values of this build", "ERRATA.md", "none known"})
+        EXPECT_NE(html.find(words), std::string::npos) << words;
+    const std::string digest = pages::record_digest(outcomes);
+    verification::Check& first = outcomes.front().checks.front();
+    const double computed = first.computed;
+    first.computed = std::nextafter(computed, 1e300);
+    EXPECT_EQ(pages::record_digest(outcomes), digest);
+    first.computed = 2.0 * computed + 1.0;
+    EXPECT_NE(pages::record_digest(outcomes), digest);
+    first.computed = computed;
+    first.tolerance *= 2.0;
+    EXPECT_NE(pages::record_digest(outcomes), digest);
 }
 
 /// A block on rock, 4 m by 4 m, and a folder for it.

@@ -131,7 +131,9 @@ protected:
 
 // 80 closed forms beside the numbers in the program: more than 97 % within, exit code 0. The figure has their points on the line from
 // corner to corner.
-TEST_F(EvidenceCommand, PageAndFigureOfAFolder)
+using ThoroughEvidenceCommand = EvidenceCommand; // each runs all sources
+
+TEST_F(ThoroughEvidenceCommand, PageAndFigureOfAFolder)
 {
     write_set(forty(1.0));
     const std::filesystem::path svg = folder / "slips.svg";
@@ -151,7 +153,7 @@ TEST_F(EvidenceCommand, PageAndFigureOfAFolder)
 }
 
 // With eight of them put 20 % wrong less than 97 % are within: 4, and each is told.
-TEST_F(EvidenceCommand, ExitCodeFollowsTheShareWithin)
+TEST_F(ThoroughEvidenceCommand, ExitCodeFollowsTheShareWithin)
 {
     write_set(forty(1.2));
     const ProgramAnswer bad = verifier_answer({"verify", folder.string(), "--external", "--json"});

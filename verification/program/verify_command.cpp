@@ -1,13 +1,17 @@
 #include "verification/program/carry.hpp"
 
 #include "cli/command.hpp"
+#include "cli/verifier.hpp"
 #include "cli/terminal/terminal.hpp"
 #include "core/file.hpp"
+#include "core/version.hpp"
 #include "core/watch.hpp"
 #include "core/input_error.hpp"
 #include "pages/report/json.hpp"
+#include "pages/report/page.hpp"
 #include "pages/report/table_text.hpp"
 #include "verification/pages/evidence.hpp"
+#include "verification/pages/manual.hpp"
 #include "verification/pages/verify_tables.hpp"
 
 #include <fmt/format.h>
@@ -174,6 +178,47 @@ int verify_external(const VerifyArguments& arguments, const Streams& streams)
     return enough && unexplained == 0 ? exit_ok : exit_no_answer;
 }
 
+/// Where ERRATA.md lies: beside the documents of an installed program, or in the sources' folder that it was built from or is called in.
+std::string errata()
+{
+    for (const std::filesystem::path& file : {own_folder() / "../share/doc/damslip/ERRATA.md", own_folder() / "../../ERRATA.md",
+                                              std::filesystem::path("ERRATA.md")})
+        if (std::filesystem::exists(file)) return read_file(file);
+    return "ERRATA.md is not at hand.";
+}
+
+/// All of it as one document. @returns exit_ok when every case passes and the record is that of the release, else exit_no_answer
+int write_manual(const VerifyArguments& arguments, const Streams& streams)
+{
+    const verification::Registry cases = verification::all_cases();
+    const hard::HardCases hard_cases = hard::all_hard_cases();
+    const auto outcomes = outcomes_of<CaseOutcome>(cases, "", "verify", streams);
+    const auto hard = outcomes_of<HardOutcome>(hard_cases, "", "verify --hard", streams);
+    const std::vector<external::Source> sources = external::all_sources();
+    std::vector<SourceOutcome> external;
+    for (const external::Source& source : sources) {
+        external.push_back({&source, {}, 0.0});
+        if (source.folder.empty() || !arguments.filter.empty()) external.back().results = source.run(arguments.filter);
+    }
+    const Page page = manual_page(outcomes, hard, external, errata());
+    if (arguments.manual.extension() == ".pdf")
+        print_pdf(page_html(page), arguments.manual);
+    else
+        write_file(arguments.manual, page_html(page));
+    streams.out << page.headline.sentence << "\nverification record " << record_digest(outcomes) << "\n";
+    name_report(arguments.manual, streams);
+    return page.headline.outcome == Outcome::pass ? exit_ok : exit_no_answer;
+}
+
+/// The digest of the record alone.
+int print_digest(const Streams& streams)
+{
+    const verification::Registry cases = verification::all_cases();
+    const std::string digest = record_digest(outcomes_of<CaseOutcome>(cases, "", "verify", streams));
+    streams.out << digest << "\n";
+    return digest == program_verification() ? exit_ok : exit_no_answer;
+}
+
 /// One id a line.
 template <class Cases>
 int print_ids(const Cases& cases, const Streams& streams)
@@ -186,6 +231,8 @@ int print_ids(const Cases& cases, const Streams& streams)
 
 int verify(const VerifyArguments& arguments, const Streams& streams)
 {
+    if (!arguments.manual.empty()) return write_manual(arguments, streams);
+    if (arguments.digest) return print_digest(streams);
     if (arguments.external) return verify_external(arguments, streams);
     if (arguments.list)
         return arguments.hard ? print_ids(hard::all_hard_cases(), streams) : print_ids(verification::all_cases(), streams);

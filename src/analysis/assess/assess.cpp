@@ -123,26 +123,27 @@ int rank_of(Effect effect)
     }
 }
 
-std::vector<Assumption> assumptions_of(const Assessment& a)
+/// @param in_spread  effects without which the model spread has run already
+std::vector<Assumption> assumptions_of(const Ready& fe, const std::function<bool(Effect)>& in_spread)
 {
     std::vector<Assumption> list;
-    Scene rigid = a.fe->given;
+    Scene rigid = fe.given;
     let_floor_absorb(rigid);
     rigid.foundation.reset();
     rigid.curtain.reset();
     if (rigid.dam.young_modulus) rigid.dam.young_modulus = *rigid.dam.young_modulus * stiffer;
     // The seepage's uplift needs the rock: the profile that it gave takes its place.
-    const std::vector<Point> seepage = seepage_points(a.fe->given);
+    const std::vector<Point> seepage = seepage_points(fe.given);
     if (rigid.uplift && !seepage.empty()) {
         rigid.uplift->model = UpliftModel::points;
         rigid.uplift->points = seepage;
     }
     list.push_back({"rigid dam on rigid rock", rigid, {}, true});
-    AblationPlan plan = make_ablations(a.fe->given, Method::finite_elements, seepage);
+    AblationPlan plan = make_ablations(fe.given, Method::finite_elements, seepage);
     std::stable_sort(plan.removals.begin(), plan.removals.end(),
                      [](const Ablation& x, const Ablation& y) { return rank_of(x.effect) < rank_of(y.effect); });
     for (const Ablation& removal : plan.removals)
-        if (!in_spread(removal.effect, a))
+        if (!in_spread(removal.effect))
             list.push_back({"without " + removal.name, removal.scene, removal.effect, false});
     return list;
 }
@@ -162,22 +163,35 @@ GroundMotion strongest_part(GroundMotion motion, std::size_t samples)
     return motion;
 }
 
-/// What the flexible block takes [s], by longer and longer strongest parts of the first record until one of them tells.
-double price_of(const Ready& ready)
+/// What all records take in both polarities [s], by longer and longer strongest parts of the first until one of them tells.
+double price_of(const Ready& ready, const std::function<void(const GroundMotion&)>& slide)
 {
     constexpr double telling = 0.02; // [s]
-    const std::optional<sliding::FlexibleBlock> block = flexible_block(ready.scene);
-    if (!block || ready.records().empty()) return 0.0;
-    const RigidModel model = ready.rigid_model();
+    if (ready.records().empty()) return 0.0;
     std::size_t samples = 0;
     for (const RecordPair& pair : ready.records()) samples += pair.horizontal.acceleration.size();
     const GroundMotion motion = ready.motion(ready.records().front());
     for (std::size_t n = 8;; n *= 2) {
         const Stopwatch clock;
-        slide_flexible(ready.scene, *block, model, strongest_part(motion, n), 1);
+        slide(strongest_part(motion, n));
+        const std::size_t slid = std::min(n, motion.accel_h.size());
         if (clock.seconds() > telling || n >= motion.accel_h.size())
-            return 2.0 * clock.seconds() * static_cast<double>(samples) / static_cast<double>(n); // both polarities
+            return 2.0 * clock.seconds() * static_cast<double>(samples) / static_cast<double>(slid);
     }
+}
+
+double price_of_flexible(const Ready& ready)
+{
+    const std::optional<sliding::FlexibleBlock> block = flexible_block(ready.scene);
+    if (!block) return 0.0;
+    const RigidModel model = ready.rigid_model();
+    return price_of(ready, [&](const GroundMotion& motion) { slide_flexible(ready.scene, *block, model, motion, 1); });
+}
+
+double price_of_rigid(const Ready& ready)
+{
+    const RigidModel model = ready.rigid_model();
+    return price_of(ready, [&](const GroundMotion& motion) { slide_model(ready.scene, model, motion, 1); });
 }
 
 constexpr double cheap =
@@ -191,7 +205,7 @@ bool run_flexible(const Scene& given, const AssessOptions& options, double most,
     try_in_time("flexible block", watch, a.left_out, [&] {
         const Ready flexible = prepare(with_flexible_block(given), Method::rigid_block, a.ready.pairs,
                                        {.flexible_modes = true, .stop = watch.stop()});
-        fits = price_of(flexible) <= most;
+        fits = price_of_flexible(flexible) <= most;
         if (fits) a.flexible = run_screening(flexible, options.jobs);
     });
     return fits;
@@ -285,12 +299,15 @@ void run_finite_elements(const Scene& given, BudgetWatch& watch, Assessment& a)
     if (!a.runs.empty()) name_missing_runs(watch, a);
 }
 
-/// What tells the levels apart, beside the finite elements.
-void run_checks(const Scene& given, const AssessOptions& options, BudgetWatch& watch, Assessment& a)
+void run_spectrum(const Scene& given, const BudgetWatch& watch, Assessment& a)
 {
     try_in_time("response spectrum", watch, a.left_out, [&] {
         a.spectrum = spectrum_level(prepare(given, Method::finite_elements, a.ready.pairs, {.stop = watch.stop()}));
     });
+}
+
+void run_rigid_effects(const AssessOptions& options, BudgetWatch& watch, Assessment& a)
+{
     try_in_time("effects in turn, rigid block", watch, a.left_out, [&] {
         a.rigid_plan = make_ablations(a.ready.given, Method::rigid_block, seepage_points(a.ready.given));
         a.rigid_ablation = run_ablations(*a.rigid_plan, a.ready.pairs, options.jobs, watch);
@@ -322,7 +339,7 @@ void run_variants(BudgetWatch& watch, Assessment& a)
                                      .without = {}});
     }
     std::vector<Assumption> list;
-    try_part("effects in turn, finite elements", watch, a.left_out, [&] { list = assumptions_of(a); });
+    try_part("effects in turn, finite elements", watch, a.left_out, [&] { list = assumptions_of(*a.fe, [&](Effect effect) { return in_spread(effect, a); }); });
     for (const Assumption& assumption : list) {
         if (!fits("finite elements, " + assumption.what, 1.0)) continue;
         const double before = watch.spent();
@@ -333,19 +350,104 @@ void run_variants(BudgetWatch& watch, Assessment& a)
     }
 }
 
+/// Two records' worth of the finite elements' whole and half steps, and the coarser mesh of the mesh error.
+constexpr double passes = 3.0, with_coarser_mesh = 1.3;
+
+/// Wall time of one finite-element run without a second mesh, by its longest record [s].
+double price_of_one(const ContactCost& cost)
+{
+    double longest = 0.0;
+    for (const ContactCost::OfRecord& r : cost.records) longest = std::max(longest, passes * r.pass_seconds);
+    return cost.set_up_seconds + longest;
+}
+
+/// Parts of the finite elements: the runs, then the variants of one of them.
+void plan_finite_elements(const Scene& given, const Watch& watch, WorkPlan& plan)
+{
+    PlannedPart runs{AssessPart::finite_elements}, spectrum{AssessPart::spectrum}, variants{AssessPart::variants};
+    std::vector<LeftOut> left_out;
+    try {
+        plan.fe = prepare(scene_of_finite_elements(given, plan.rock_change), Method::finite_elements,
+                          load_records(given, Method::finite_elements), {.joints_of_lifts = true, .stop = watch.stop()});
+        const ContactCost cost = contact_cost(*plan.fe);
+        const std::size_t polarities = polarities_of(plan.fe->scene).size();
+        runs.runs = polarities * plan.fe->records().size();
+        spectrum.runs = plan.fe->records().size();
+        const auto replaced = [](Effect e) { return e == Effect::acoustic_water || e == Effect::rock_inertia; };
+        variants.runs = assumptions_of(*plan.fe, replaced).size() + (has_water(plan.fe->scene) ? 2 : 1);
+        if (cost.seconds_per_step) {
+            double all = 0.0;
+            for (const ContactCost::OfRecord& r : cost.records) all += passes * r.pass_seconds;
+            runs.seconds = with_coarser_mesh * (cost.set_up_seconds + static_cast<double>(polarities) * all);
+            variants.seconds = static_cast<double>(variants.runs) * price_of_one(cost);
+        }
+        spectrum.seconds = cost.set_up_seconds;
+    } catch (const InputError& e) {
+        runs.left_out = e.diagnostics().empty() ? e.what() : e.diagnostics().front().problem;
+    } catch (const NotConverged& e) {
+        runs.left_out = e.diagnostic().problem;
+    }
+    if (!runs.left_out.empty()) spectrum.left_out = variants.left_out = "it needs the finite elements";
+    for (PlannedPart& part : {runs, spectrum, variants}) plan.parts.push_back(part);
+}
+
 } // namespace
+
+double WorkPlan::seconds() const
+{
+    double sum = 0.0;
+    for (const PlannedPart& part : parts)
+        if (part.fits && part.left_out.empty()) sum += part.seconds.value_or(0.0);
+    return sum;
+}
+
+WorkPlan plan_work(const Scene& given, const AssessOptions& options, Watch& watch)
+{
+    WorkPlan plan{.ready = prepare(given, Method::rigid_block, {.flexible_modes = true, .stop = watch.stop()}),
+                  .fe = {}, .rock_change = {}, .parts = {}, .budget = options.budget};
+    const std::size_t motions = 2 * plan.ready.records().size();
+    const double rigid = price_of_rigid(plan.ready);
+    plan.parts.push_back({AssessPart::rigid_block, motions, rigid});
+    PlannedPart flexible{AssessPart::flexible_block, motions};
+    std::vector<LeftOut> refused;
+    const BudgetWatch budget(watch, options.budget);
+    try_part("", budget, refused, [&] {
+        flexible.seconds = price_of_flexible(prepare(with_flexible_block(given), Method::rigid_block, plan.ready.pairs,
+                                                     {.flexible_modes = true, .stop = watch.stop()}));
+    });
+    if (!refused.empty()) flexible.left_out = refused.front().why;
+    const bool before = flexible.seconds.value_or(0.0) <= cheap * options.budget;
+    if (before) plan.parts.push_back(flexible);
+    plan_finite_elements(given, watch, plan);
+    if (!before) plan.parts.insert(plan.parts.begin() + 2, flexible);
+    const std::size_t removals =
+        make_ablations(plan.ready.given, Method::rigid_block, seepage_points(plan.ready.given)).removals.size();
+    plan.parts.insert(plan.parts.end() - 1, {AssessPart::rigid_effects, motions * removals, rigid * static_cast<double>(removals)});
+    double sum = 0.0;
+    for (PlannedPart& part : plan.parts)
+        if (part.left_out.empty()) part.fits = (sum += part.seconds.value_or(0.0)) <= options.budget;
+    return plan;
+}
 
 Assessment assess(const Scene& given, const AssessOptions& options, Watch& watch)
 {
     BudgetWatch budget(watch, options.budget);
     Assessment a;
-    run_rigid_block(given, options, budget, a);
-    const bool before = run_flexible(given, options, cheap * options.budget, budget, a);
-    run_finite_elements(given, budget, a);
-    if (!before && !run_flexible(given, options, budget.left(), budget, a))
-        a.left_out.push_back({"flexible block", "the budget does not hold it"});
-    run_checks(given, options, budget, a);
-    run_variants(budget, a);
+    const auto timed = [&](AssessPart part, const auto& run) {
+        const double before = budget.spent();
+        run();
+        a.seconds_of[part] += budget.spent() - before;
+    };
+    timed(AssessPart::rigid_block, [&] { run_rigid_block(given, options, budget, a); });
+    bool settled = false;
+    timed(AssessPart::flexible_block, [&] { settled = run_flexible(given, options, cheap * options.budget, budget, a); });
+    timed(AssessPart::finite_elements, [&] { run_finite_elements(given, budget, a); });
+    if (!settled)
+        timed(AssessPart::flexible_block, [&] { settled = run_flexible(given, options, budget.left(), budget, a); });
+    if (!settled) a.left_out.push_back({"flexible block", "the budget does not hold it"});
+    timed(AssessPart::spectrum, [&] { run_spectrum(given, budget, a); });
+    timed(AssessPart::rigid_effects, [&] { run_rigid_effects(options, budget, a); });
+    timed(AssessPart::variants, [&] { run_variants(budget, a); });
     a.interrupted = watch.stop_asked();
     a.seconds = budget.spent();
     judge_assessment(a);

@@ -7,6 +7,7 @@
 #include "analysis/spectrum/spectrum_level.hpp"
 #include "core/watch.hpp"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,6 +68,32 @@ struct AssessOptions {
     int jobs = 0;          ///< threads of the quick levels, 0: all cores
 };
 
+/// Parts of an assessment, in the order of their effort.
+enum class AssessPart { rigid_block, flexible_block, finite_elements, spectrum, rigid_effects, variants };
+
+/// One part before it runs.
+struct PlannedPart {
+    AssessPart part = AssessPart::rigid_block;
+    std::size_t runs = 0;                  ///< motions that it follows; variants: one run each
+    std::optional<double> seconds;         ///< wall time, from what a short piece of it took here; none: not known
+    std::string left_out = {};             ///< why it cannot run; empty: it can
+    bool fits = true;                      ///< the budget holds it and all before it
+};
+
+/// What an assessment would do, with what it would cost. Nothing but short pieces has run.
+struct WorkPlan {
+    Ready ready;               ///< of the rigid block
+    std::optional<Ready> fe;   ///< none: finite elements cannot take the scene
+    std::string rock_change;   ///< as of Assessment
+    std::vector<PlannedPart> parts;
+    double budget = 0.0; ///< [s]
+
+    double seconds() const; ///< of all parts that fit [s]
+};
+
+/// @param given  as of assess() @throws InputError
+WorkPlan plan_work(const Scene& given, const AssessOptions& options, Watch& watch);
+
 struct Assessment {
     Ready ready;                       ///< of the rigid block
     Screening screening;               ///< limit equilibrium, regressions, rigid block
@@ -81,6 +108,7 @@ struct Assessment {
     std::vector<ModelChoice> spread;        ///< on the worst record
     std::vector<AssumptionRun> assumptions; ///< the same
     std::vector<LeftOut> left_out;
+    std::map<AssessPart, double> seconds_of; ///< wall time of each part that began [s]
     bool interrupted = false; ///< by the user: nothing is recommended
     double seconds = 0.0;     ///< wall time
 

@@ -4,6 +4,7 @@
 #include "core/text.hpp"
 #include "core/units.hpp"
 #include "pages/ablation/ablation_pages.hpp"
+#include "pages/assess/work_plan_page.hpp"
 #include "pages/report/json.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
@@ -231,7 +232,7 @@ Headline assess_headline(const Assessment& a)
     return with_failed_checks(with_planes({sentence, outcome, verdict}, a.screening.planes, a.ready.scene), a.failed_checks);
 }
 
-Page assess_page(const Assessment& a, const Scene& given)
+Page assess_page(const Assessment& a, const Scene& given, const WorkPlan& plan)
 {
     Page page = begin_page(given, "Every level of effort on one dam. ");
     page.headline = assess_headline(a);
@@ -258,6 +259,9 @@ Page assess_page(const Assessment& a, const Scene& given)
     }
     page.sections.push_back(equilibrium_section(a.screening.combinations));
     if (a.spectrum) page.sections.push_back(spectrum_section(*a.spectrum));
+    Section planned{"Work plan, and what came of it", {rows_part(work_plan_table(plan, &a))}};
+    if (Table judged = judgement_table(a.ready); !judged.rows.empty()) planned.parts.push_back(rows_part(std::move(judged)));
+    page.sections.push_back(std::move(planned));
     page.sections.push_back(sentences_section("What was not considered", {}));
     page.sections.back().parts.push_back(rows_part(off_table("The scene does not name", not_named(a))));
     page.sections.back().parts.push_back(rows_part(off_table("A choice of scene or method leaves off", taken_off(a))));

@@ -24,8 +24,8 @@ std::vector<std::string> taken_off(const Assessment& a);
 
 Headline assess_headline(const Assessment& a);
 
-/// @param given  the scene as read
-Page assess_page(const Assessment& a, const Scene& given);
+/// @param given  the scene as read @param plan  what was to be done; the page says what came of it
+Page assess_page(const Assessment& a, const Scene& given, const WorkPlan& plan);
 Answer assess_answer(const Assessment& a, const Scene& given);
 
 } // namespace damslip::pages

@@ -94,16 +94,11 @@ Answer explain_answer(const Explained& in)
 {
     const auto& effects = in.plan.effects;
     const auto on = std::count_if(effects.begin(), effects.end(), [](const PlannedEffect& e) { return e.on; });
-    const Table plan = effect_table(in.plan);
-    Table shown = plan;
-    shown.rows.clear();
-    for (std::size_t i = 0; i < effects.size(); ++i)
-        if (effects[i].on) shown.rows.push_back(plan.rows[i]);
     Answer all(json_header("explain", in.given, in.plan.scene_hash));
     all += in.given.title + "\n\n";
     all.set("method", in.method);
-    all.add("effects", plan);
-    all.add("effects_on", shown, {.text = false, .brief = true, .data = false});
+    all.add("effects", effect_table(in.plan));
+    all.add("effects_on", effect_table(in.plan, true), {.text = false, .brief = true, .data = false});
     const std::string sentence =
         fmt::format("{} of {} effects on; the others are neither read, built nor stored.", on, effects.size());
     all += sentence + "\n\n";

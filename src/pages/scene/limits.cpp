@@ -70,6 +70,17 @@ std::vector<Limit> element_limits(const Scene& scene)
     return list;
 }
 
+Limit slip_plane_limit(const Scene& scene, Method method)
+{
+    if (scene.wedge) return {"slip plane", "the planes that are given", "another plane is weaker", "give it as a scene of its own"};
+    std::string planes = "the base";
+    if (scene.lifts || (method == Method::finite_elements && !scene.lift_joints.empty())) planes += ", the lift joints";
+    if (!scene.seams.empty())
+        planes += method == Method::finite_elements ? "; seams by rigid blocks, or alone with --plane" : ", the seams";
+    return {"slip plane", planes == "the base" ? "the base alone" : planes, "a lift or a seam that is not named is weaker",
+            "[lifts] for every lift joint, [[seam]] for a seam in the rock"};
+}
+
 } // namespace
 
 Section limits_section(const Scene& scene, Method method)
@@ -77,12 +88,7 @@ Section limits_section(const Scene& scene, Method method)
     std::vector<Limit> rows{
         {"plane section", "one metre of the dam, the same along the axis",
          "abutments, arching or shear keys between monoliths carry load", "a model in three dimensions"},
-        {"slip plane",
-         scene.wedge                                                       ? "the planes that are given"
-         : method == Method::finite_elements && !scene.lift_joints.empty() ? "the base and the lift joints"
-                                                                           : "the base alone",
-         "a seam below the base or another plane through the dam is weaker",
-         "name it as a lift joint, or run the block on the seam"},
+        slip_plane_limit(scene, method),
         {"friction", "Coulomb's law, the same along a plane, with the scene's value",
          "strength varies along the plane, or is not known: the slip depends on it as on little else",
          "run the lowest and the highest value (sweep)"}};
@@ -148,15 +154,18 @@ TablePart effect_part(const EffectPlan& plan)
                       "carries for it. Effects that are off are neither read nor built."});
 }
 
-Table effect_table(const EffectPlan& plan)
+Table effect_table(const EffectPlan& plan, std::optional<bool> on)
 {
     using E = PlannedEffect;
+    std::vector<E> effects;
+    for (const E& effect : plan.effects)
+        if (!on || effect.on == *on) effects.push_back(effect);
     return table_of<E>(plan.method == Method::rigid_block ? "Effect plan, rigid block" : "Effect plan, finite elements",
                        {{in_brief({"effect", "effect"}), &E::name},
                         {{"on", "on"}, &E::on},
                         {in_brief({"reason", "because"}), &E::reason},
                         {in_brief({"cost", "cost"}), &E::cost}},
-                       plan.effects);
+                       effects);
 }
 
 } // namespace damslip::pages

@@ -75,6 +75,7 @@ std::vector<std::pair<std::string, std::string>> scene_provenance(const Scene& s
 {
     const std::string resolved = scene_hash(scene);
     std::vector<std::pair<std::string, std::string>> list{{"program", "damslip " + program_version()},
+                                                          {"verification record", program_verification()},
                                                           {"scene", scene.file.string()},
                                                           {"scene hash", hash.empty() ? resolved : hash}};
     if (list.back().second != resolved) list.emplace_back("hash of the resolved scene", resolved);

@@ -33,8 +33,8 @@ TablePart record_part(Table table);
 /// The plan of effects with how it is to be read.
 TablePart effect_part(const EffectPlan& plan);
 
-/// The plan as a table: effect, on, because, cost.
-Table effect_table(const EffectPlan& plan);
+/// The plan as a table: effect, on, because, cost. @param on  those that are on, or off; none: all
+Table effect_table(const EffectPlan& plan, std::optional<bool> on = {});
 
 /// What every answer says of where it comes from.
 

@@ -1,0 +1,200 @@
+#include "pages/sheet/workbook.hpp"
+
+#include "core/input_error.hpp"
+#include "core/text.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
+#include <utility>
+#include <xlsxwriter.h>
+
+namespace damslip::pages {
+
+Formula::Formula(double value) : text_(shortest(value)), value_(value), compound_(value < 0.0), constant_(true) {}
+
+Formula::Formula(std::string text, double value, bool compound) : text_(std::move(text)), value_(value), compound_(compound) {}
+
+Formula Formula::combined(const Formula& a, const char* sign, const Formula& b, double value)
+{
+    return {a.inside() + sign + b.inside(), value};
+}
+
+namespace {
+
+Formula call(const char* name, const std::vector<Formula>& arguments, double value)
+{
+    std::string list;
+    for (const Formula& a : arguments) list += (list.empty() ? "" : ",") + a.text();
+    return {std::string(name) + "(" + list + ")", value, false};
+}
+
+constexpr int name_column = 0, value_column = 1, unit_column = 2, source_column = 3;
+constexpr lxw_datetime no_date = {2000, 1, 1, 0, 0, 0}; // the day a sheet is made would make each file another
+
+} // namespace
+
+Formula sqrt(const Formula& a)
+{
+    return call("SQRT", {a}, std::sqrt(a.value()));
+}
+
+Formula abs(const Formula& a)
+{
+    return call("ABS", {a}, std::abs(a.value()));
+}
+
+Formula max(const Formula& a, const Formula& b)
+{
+    return call("MAX", {a, b}, std::max(a.value(), b.value()));
+}
+
+Formula min(const Formula& a, const Formula& b)
+{
+    return call("MIN", {a, b}, std::min(a.value(), b.value()));
+}
+
+Formula if_greater(const Formula& a, const Formula& b, const Formula& then, const Formula& otherwise)
+{
+    return {fmt::format("IF({}>{},{},{})", a.text(), b.text(), then.text(), otherwise.text()),
+            a.value() > b.value() ? then.value() : otherwise.value(), false};
+}
+
+Formula sum(const std::vector<Formula>& terms)
+{
+    if (terms.empty()) return 0.0;
+    double value = 0.0;
+    for (const Formula& t : terms) value += t.value();
+    return call("SUM", terms, value);
+}
+
+struct Workbook::Sheet {
+    lxw_workbook* book = nullptr; ///< null: closed
+    lxw_worksheet* page = nullptr;
+    lxw_format *bold = nullptr, *input = nullptr;
+    std::set<std::string> names; ///< in small letters: a spreadsheet does not tell them apart
+};
+
+void Workbook::check_name(const std::filesystem::path& file)
+{
+    if (file.extension() != ".xlsx")
+        refuse_usage(fmt::format("--sheet {} is not a workbook.", file.string()), "a file that ends in .xlsx",
+                     "for example  --sheet check.xlsx");
+}
+
+Workbook::Workbook(std::filesystem::path file) : file_(std::move(file)), sheet_(std::make_unique<Sheet>())
+{
+    if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path());
+    sheet_->book = workbook_new(file_.c_str());
+    lxw_doc_properties properties = {};
+    properties.created = lxw_datetime_to_unixtime(const_cast<lxw_datetime*>(&no_date));
+    workbook_set_properties(sheet_->book, &properties);
+    sheet_->bold = workbook_add_format(sheet_->book);
+    format_set_bold(sheet_->bold);
+    sheet_->input = workbook_add_format(sheet_->book); // numbers that are given, as against computed ones
+    format_set_font_color(sheet_->input, LXW_COLOR_BLUE);
+}
+
+Workbook::~Workbook()
+{
+    if (sheet_->book) workbook_close(sheet_->book);
+}
+
+void Workbook::begin(const std::string& wanted)
+{
+    std::string name;
+    for (const char c : wanted.substr(0, 27))
+        name += std::string_view("[]:*?/\\'").find(c) == std::string_view::npos && static_cast<unsigned char>(c) < 0x80 ? c : '_';
+    const auto small = [](std::string text) {
+        for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        return text;
+    };
+    const std::string plain = name;
+    for (int n = 2; !sheet_->names.insert(small(name)).second; ++n) name = fmt::format("{} {}", plain, n);
+    sheet_->page = workbook_add_worksheet(sheet_->book, name.c_str());
+    worksheet_set_column(sheet_->page, name_column, name_column, 44, nullptr);
+    worksheet_set_column(sheet_->page, value_column, 9, 16, nullptr);
+    row_ = 0;
+}
+
+void Workbook::title(const std::string& text)
+{
+    if (row_ > 0) ++row_;
+    worksheet_write_string(sheet_->page, static_cast<lxw_row_t>(row_++), name_column, text.c_str(), sheet_->bold);
+}
+
+void Workbook::note(const std::string& text)
+{
+    worksheet_write_string(sheet_->page, static_cast<lxw_row_t>(row_++), name_column, text.c_str(), nullptr);
+}
+
+void Workbook::head(const std::vector<std::string>& columns)
+{
+    for (std::size_t i = 0; i < columns.size(); ++i)
+        worksheet_write_string(sheet_->page, static_cast<lxw_row_t>(row_), static_cast<lxw_col_t>(i), columns[i].c_str(),
+                               sheet_->bold);
+    ++row_;
+}
+
+Formula Workbook::cell(int column, const Formula& value)
+{
+    const auto row = static_cast<lxw_row_t>(row_);
+    const auto col = static_cast<lxw_col_t>(column);
+    if (!std::isfinite(value.value()))
+        worksheet_write_string(sheet_->page, row, col, "none", nullptr);
+    else if (value.constant())
+        worksheet_write_number(sheet_->page, row, col, value.value(), sheet_->input);
+    else
+        worksheet_write_formula_num(sheet_->page, row, col, ("=" + value.text()).c_str(), nullptr, value.value());
+    return {fmt::format("{}{}", static_cast<char>('A' + column), row_ + 1), value.value(), false};
+}
+
+Formula Workbook::put(const std::string& name, const Formula& value, const std::string& unit, const std::string& source)
+{
+    const auto row = static_cast<lxw_row_t>(row_);
+    worksheet_write_string(sheet_->page, row, name_column, name.c_str(), nullptr);
+    const Formula reference = cell(value_column, value);
+    worksheet_write_string(sheet_->page, row, unit_column, unit.c_str(), nullptr);
+    if (!source.empty()) worksheet_write_string(sheet_->page, row, source_column, source.c_str(), nullptr);
+    ++row_;
+    return reference;
+}
+
+void Workbook::word(const std::string& name, const std::string& text)
+{
+    worksheet_write_string(sheet_->page, static_cast<lxw_row_t>(row_), name_column, name.c_str(), nullptr);
+    worksheet_write_string(sheet_->page, static_cast<lxw_row_t>(row_++), value_column, text.c_str(), nullptr);
+}
+
+std::vector<Formula> Workbook::row(const std::string& name, const std::vector<Formula>& cells)
+{
+    worksheet_write_string(sheet_->page, static_cast<lxw_row_t>(row_), name_column, name.c_str(), nullptr);
+    std::vector<Formula> references;
+    for (std::size_t i = 0; i < cells.size(); ++i) references.push_back(cell(static_cast<int>(i) + 1, cells[i]));
+    ++row_;
+    return references;
+}
+
+void Workbook::compare(const std::string& name, const Formula& of_sheet, double of_program, const std::string& unit)
+{
+    if (!std::isfinite(of_program)) { // no shear: no factor
+        word(name, "none");
+        return;
+    }
+    const auto at = static_cast<lxw_row_t>(row_);
+    const std::vector<Formula> pair = row(name, {of_sheet, of_program});
+    cell(3, abs(pair[0] - pair[1]) / max(max(abs(pair[0]), abs(pair[1])), 1e-300));
+    worksheet_write_string(sheet_->page, at, 4, unit.c_str(), nullptr);
+}
+
+void Workbook::close()
+{
+    lxw_workbook* const book = std::exchange(sheet_->book, nullptr);
+    if (const lxw_error error = workbook_close(book); error != LXW_NO_ERROR)
+        throw InputError(Diagnostic{file_.string(), 0, 0, fmt::format("cannot be written: {}.", lxw_strerror(error)), {},
+                                    "check the folder and its permissions"});
+}
+
+} // namespace damslip::pages

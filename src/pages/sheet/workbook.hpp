@@ -1,0 +1,78 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// Calculations as a spreadsheet whose cells are formulas: what is checked by hand.
+namespace damslip::pages {
+
+/// A number with the formula that makes it: its text is that of a spreadsheet, of references to cells and of numbers.
+class Formula {
+public:
+    Formula(double value); ///< a constant
+    Formula(std::string text, double value, bool compound = true);
+
+    double value() const { return value_; }
+    const std::string& text() const { return text_; } ///< without "="
+    bool constant() const { return constant_; }
+
+    friend Formula operator+(const Formula& a, const Formula& b) { return combined(a, "+", b, a.value_ + b.value_); }
+    friend Formula operator-(const Formula& a, const Formula& b) { return combined(a, "-", b, a.value_ - b.value_); }
+    friend Formula operator*(const Formula& a, const Formula& b) { return combined(a, "*", b, a.value_ * b.value_); }
+    friend Formula operator/(const Formula& a, const Formula& b) { return combined(a, "/", b, a.value_ / b.value_); }
+    friend Formula operator-(const Formula& a) { return 0.0 - a; }
+
+private:
+    static Formula combined(const Formula& a, const char* sign, const Formula& b, double value);
+    std::string inside() const { return compound_ ? "(" + text_ + ")" : text_; } ///< as an operand
+
+    std::string text_;
+    double value_;
+    bool compound_ = false, constant_ = false;
+};
+
+Formula sqrt(const Formula& a);
+Formula abs(const Formula& a);
+Formula max(const Formula& a, const Formula& b);
+Formula min(const Formula& a, const Formula& b);
+/// a > b ? then : otherwise
+Formula if_greater(const Formula& a, const Formula& b, const Formula& then, const Formula& otherwise);
+Formula sum(const std::vector<Formula>& terms);
+
+/// A file of worksheets (xlsx), each filled from top to bottom. Every formula is written with its value, so that a reader that does not
+/// compute shows it too. The same content gives the same cells.
+class Workbook {
+public:
+    /// @throws UsageError where the file does not end in .xlsx
+    static void check_name(const std::filesystem::path& file);
+    explicit Workbook(std::filesystem::path file);
+    ~Workbook();
+    Workbook(const Workbook&) = delete;
+    Workbook& operator=(const Workbook&) = delete;
+
+    void begin(const std::string& name);      ///< the next worksheet; a name that exists gets a number
+    void title(const std::string& text);      ///< a bold line after an empty one
+    void note(const std::string& text);       ///< a line of text
+    void head(const std::vector<std::string>& columns); ///< of a list, bold
+
+    /// A line "name | value | unit | source". @returns the reference to its cell, for formulas on this worksheet
+    Formula put(const std::string& name, const Formula& value, const std::string& unit, const std::string& source = {});
+    void word(const std::string& name, const std::string& text); ///< a line without a number
+    /// A line of a list: its name, then its cells. @returns their references
+    std::vector<Formula> row(const std::string& name, const std::vector<Formula>& cells);
+    /// What the program has beside what the sheet has, and their difference over the larger.
+    void compare(const std::string& name, const Formula& of_sheet, double of_program, const std::string& unit);
+
+    void close(); ///< writes the file @throws InputError where it cannot be written
+
+private:
+    struct Sheet;
+    Formula cell(int column, const Formula& value);
+    std::filesystem::path file_;
+    std::unique_ptr<Sheet> sheet_;
+    int row_ = 0;
+};
+
+} // namespace damslip::pages
