@@ -4,6 +4,7 @@
 #include "core/input_error.hpp"
 #include "core/text.hpp"
 #include "pages/report/json.hpp"
+#include "pages/sheet/workbook.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

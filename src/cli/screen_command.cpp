@@ -157,6 +157,20 @@ Scene scene_to_assess(const AssessArguments& a, const Streams& streams)
     return scene;
 }
 
+/// Writes answer and page into the folder, and the page as PDF. @param name  of the JSON file
+void write_assessment(const AssessArguments& a, const Scene& given, const Answer& answer, const Page& page, const char* name,
+                      const Streams& streams)
+{
+    if (!a.out.empty()) {
+        const std::filesystem::path report = a.out / (a.plan ? "plan.html" : "report.html");
+        write_file(a.out / name, answer.json().dump(2) + "\n");
+        write_file(a.out / "scene.resolved.toml", resolved_toml(given));
+        write_file(report, page_html(page));
+        name_report(report, streams);
+    }
+    if (!a.pdf.empty()) print_pdf(page_html(page), a.pdf);
+}
+
 /// Every level on one dam, with a recommended slip and its range.
 /// @returns exit_code_of()
 int assess_dam(const AssessArguments& a, const Streams& streams)

@@ -388,7 +388,7 @@ void plan_finite_elements(const Scene& given, const Watch& watch, WorkPlan& plan
         runs.left_out = e.diagnostic().problem;
     }
     if (!runs.left_out.empty()) spectrum.left_out = variants.left_out = "it needs the finite elements";
-    for (PlannedPart& part : {runs, spectrum, variants}) plan.parts.push_back(part);
+    for (const PlannedPart& part : {runs, spectrum, variants}) plan.parts.push_back(part);
 }
 
 } // namespace

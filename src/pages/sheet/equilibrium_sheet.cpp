@@ -256,7 +256,7 @@ private:
         crack_ = book_.put("length that carries no pressure", e_.frame.length - e_.base.compressed_length, "m",
                            towards_toe ? "from the heel" : "from the toe");
         compressed_ = book_.put("compressed length", length_ - crack_, "m");
-        if (e_.base.status == sliding::CrackStatus::partial && e_.crack_rule != sliding::CrackRule::none)
+        if (e_.base.status == sliding::CrackStatus::partial && e_.crack_rule != CrackRule::none)
             book_.put("condition of the crack, has to be 0",
                       (compressed_ - 3.0 * (towards_toe ? length_ - distance_ : distance_)) / length_, "-",
                       "a triangle of pressure: its resultant lies in its third");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <ctime>
 #include <fmt/format.h>
 #include <set>
 #include <utility>
@@ -32,7 +33,7 @@ Formula call(const char* name, const std::vector<Formula>& arguments, double val
 }
 
 constexpr int name_column = 0, value_column = 1, unit_column = 2, source_column = 3;
-constexpr lxw_datetime no_date = {2000, 1, 1, 0, 0, 0}; // the day a sheet is made would make each file another
+constexpr std::time_t no_date = 946684800; // 2000-01-01: the day a sheet is made would make each file another
 
 } // namespace
 
@@ -89,7 +90,7 @@ Workbook::Workbook(std::filesystem::path file) : file_(std::move(file)), sheet_(
     if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path());
     sheet_->book = workbook_new(file_.c_str());
     lxw_doc_properties properties = {};
-    properties.created = lxw_datetime_to_unixtime(const_cast<lxw_datetime*>(&no_date));
+    properties.created = no_date;
     workbook_set_properties(sheet_->book, &properties);
     sheet_->bold = workbook_add_format(sheet_->book);
     format_set_bold(sheet_->bold);
