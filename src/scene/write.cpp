@@ -4,6 +4,7 @@
 #include "core/text.hpp"
 #include "scene/key_table.hpp"
 #include "scene/mesh_sizes.hpp"
+#include "scene/plausible.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -200,13 +201,16 @@ std::vector<UsualValue> usual_values(const Scene& given)
         const std::vector<const void*> items = group.items(scene);
         for (std::size_t i = 0; i < items.size(); ++i)
             for (const Key& key : group.keys) {
-                if (!key.usual || (key.applies && !key.applies(items[i]))) continue;
+                const bool numerical = key.usual && key.usual->source == "judgement" && group.name != "criteria";
+                if (!key.usual || numerical || (key.applies && !key.applies(items[i]))) continue;
                 std::string written = line(key, key.slot(const_cast<void*>(items[i])), RecordPaths::file_names);
                 if (written.empty()) continue;
                 written.pop_back(); // the end of the line
                 const std::size_t at = written.find(" = ");
                 const std::string number = items.size() > 1 ? fmt::format(" ({})", i + 1) : "";
-                values.push_back({group.name + "." + written.substr(0, at) + number, written.substr(at + 3), *key.usual,
+                const std::string text = written.substr(at + 3);
+                const std::optional<double> value = parse_whole_number_text(text);
+                values.push_back({group.name + "." + written.substr(0, at) + number, value ? six_digits(*value) : text, *key.usual,
                                   key.units.front()});
             }
     }

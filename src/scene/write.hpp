@@ -19,12 +19,13 @@ std::string resolved_toml(const Scene& scene, RecordPaths paths = RecordPaths::a
 /// A number of the resolved scene that has a usual range.
 struct UsualValue {
     std::string key;   ///< "contact.friction"; of several entries of a list with the place: "seam.friction (2)"
-    std::string value; ///< as a scene file holds it
+    std::string value; ///< of six digits, in the unit of the key
     Usual usual;
     UnitSuffix unit; ///< of the range
 };
 
-/// Loads, strengths, moduli, damping: what a dam is judged by. Sizes of section and mesh are left out.
+/// Loads, strengths, moduli, damping: what a dam is judged by. Left out are sizes of section and mesh, and ranges that are nobody's but
+/// ours.
 std::vector<UsualValue> usual_values(const Scene& scene);
 
 /// SHA-256 of the resolved scene; the same for the same model wherever its file lies, whatever its name and title and

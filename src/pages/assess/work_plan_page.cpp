@@ -105,7 +105,7 @@ Table value_table(const Scene& given)
                                {{"value", "value"}, &UsualValue::value},
                                {{"usual", "usual"}, [](const UsualValue& v) { return usual_text(v.usual, v.unit); }}},
                               usual_values(given),
-                              {"those of the scene that have a usual range, defaults included; all: damslip check SCENE --resolved."});
+                              {"those of the scene that have a usual range, defaults included; all are in scene.resolved.toml of --out."});
 }
 
 std::vector<GroundMotion> motions_of(const Ready& ready)
@@ -116,8 +116,8 @@ std::vector<GroundMotion> motions_of(const Ready& ready)
 }
 
 constexpr const char* agreement =
-    "Before it runs, agree to: the models and their order; the premises and what is left out; the values below; records and "
-    "their scale; what is judged by what. The slip that comes out then stands, whatever it is.";
+    "the models and their order, the premises and what is left out, the values, the records and their scale, and what is "
+    "judged by what. The slip that comes out then stands, whatever it is.";
 
 std::vector<std::string> plan_notes(const WorkPlan& plan)
 {
@@ -182,7 +182,7 @@ Page work_plan_page(const WorkPlan& plan, const Scene& given)
     page.headline = {purpose(plan, given)};
     page.key_figures = {{"Cost", fmt::format("{:.2g} s", plan.seconds())}, {"Budget", fmt::format("{:.4g} s", plan.budget)}};
     page.warnings = plan_notes(plan);
-    page.sections.push_back({"To agree on", {Paragraph{agreement}}});
+    page.sections.push_back({"To agree on before it runs", {Paragraph{std::string("A reviewer agrees to ") + agreement}}});
     page.sections.push_back({"Models in their order", {rows_part(work_plan_table(plan)), Paragraph{cost(plan)}}});
     Section judged{"What is judged by what", {}};
     if (Table table = judgement_table(plan.ready); !table.rows.empty())
@@ -215,8 +215,8 @@ Answer work_plan_answer(const WorkPlan& plan, const Scene& given)
     all.add("premises", effects_of(plan, true));
     all.add("left_out", effects_of(plan, false));
     all.point("cost", cost(plan));
-    all.point("agree to", agreement);
-    all += cost(plan) + "\n" + agreement + "\n\n";
+    all.point("agree before it runs", agreement);
+    all += cost(plan) + "\n" + broken_lines(std::string("Agree before it runs: ") + agreement, "") + "\n\n";
     all.set("notes", plan_notes(plan));
     for (const std::string& note : plan_notes(plan)) all.note(note);
     all.next("damslip assess " + given.file.string() + fmt::format(" --budget {:g}", plan.budget));

@@ -79,7 +79,7 @@ private:
                 book_.put("residual friction", e_.residual_friction, "-"),
                 book_.put("residual cohesion", e_.residual_cohesion, "Pa"),
                 book_.put("toe x", toe_point.x, "m"),
-                book_.put("toe y", toe_point.y, "m")};
+                book_.put("toe y", toe_point.y + 0.0, "m")};
     }
 
     /// Area, and first moments over it, by the corners of the outline; given where the section has a thickness.
@@ -93,13 +93,15 @@ private:
             centre_y_ = book_.put("centroid y", centre.y, "m");
             return;
         }
-        book_.head({"corner", "x [m]", "y [m]", "cross x_i y_k - x_k y_i", "x_i + x_k", "y_i + y_k"});
+        book_.head({"corner", "x [m]", "y [m]"});
         const Polyline& polygon = scene_.section.polygon;
         std::vector<std::vector<Formula>> corners;
-        for (std::size_t i = 0; i <= polygon.size(); ++i) { // the first corner closes the outline
-            const Point p = polygon[i % polygon.size()];
-            corners.push_back(book_.row(fmt::format("{}", i % polygon.size() + 1), {p.x, p.y}));
+        for (const Point p : polygon) {
+            const bool is_toe = corners.size() == 1; // given above
+            corners.push_back(book_.row(fmt::format("{}", corners.size() + 1),
+                                        {is_toe ? given_.toe_x : Formula(p.x + 0.0), is_toe ? given_.toe_y : Formula(p.y + 0.0)}));
         }
+        corners.push_back(corners.front()); // which closes the outline
         std::vector<Formula> cross, moment_x, moment_y;
         for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
             const auto &a = corners[i], &b = corners[i + 1];
@@ -107,33 +109,42 @@ private:
             moment_x.push_back(cross.back() * (a[0] + b[0]));
             moment_y.push_back(cross.back() * (a[1] + b[1]));
         }
+        corners_ = std::move(corners);
         area_ = book_.put("area A", sum(cross) / 2.0, "m2", "half the sum of the cross products");
         centre_x_ = book_.put("centroid x", sum(moment_x) / (6.0 * area_), "m");
         centre_y_ = book_.put("centroid y", sum(moment_y) / (6.0 * area_), "m");
+    }
+
+    /// The cells of a corner of the outline; its numbers where it is none, or the section is given by its area.
+    std::pair<Formula, Formula> cells_of(Point p) const
+    {
+        for (std::size_t i = 0; i + 1 < corners_.size(); ++i)
+            if (scene_.section.polygon[i].x == p.x && scene_.section.polygon[i].y == p.y) return {corners_[i][0], corners_[i][1]};
+        return {p.x, p.y};
     }
 
     /// Water or silt on a face, piece by piece up to its level. @param side  sign of the normal into the dam
     LoadCells on_face(const Load& load, const Polyline& face, double side, const Formula& level, const Formula& unit_weight,
                       const Formula& factor, bool vertical)
     {
-        book_.head({load.name, "x1 [m]", "y1", "x2", "y2", "p1 [N/m2]", "p2"});
+        book_.head({load.name, "x1 [m]", "y1 [m]", "x2 [m]", "y2 [m]"});
         std::vector<Formula> fx, mx, fy, my;
         for (std::size_t i = 0; i + 1 < face.size(); ++i) {
-            Point a = face[i], b = face[i + 1];
+            const Point a = face[i], b = face[i + 1];
             if (a.y >= level.value() && b.y >= level.value()) continue;
             const bool cut = std::max(a.y, b.y) > level.value(), rises = b.y > a.y;
             // The end above the surface goes down along the piece to it.
-            const auto along = [&](Point low, Point high) {
-                return low.x + (level - low.y) / (high.y - low.y) * (high.x - low.x);
-            };
-            const Formula ax = cut && !rises ? along(b, a) : Formula(a.x), ay = cut && !rises ? level : Formula(a.y);
-            const Formula bx = cut && rises ? along(a, b) : Formula(b.x), by = cut && rises ? level : Formula(b.y);
+            const auto [xa, ya] = cells_of(a);
+            const auto [xb, yb] = cells_of(b);
+            const Formula at_level = rises ? xa + (level - ya) / (yb - ya) * (xb - xa) : xb + (level - yb) / (ya - yb) * (xa - xb);
+            const Formula ax = cut && !rises ? at_level : xa, ay = cut && !rises ? level : ya;
+            const Formula bx = cut && rises ? at_level : xb, by = cut && rises ? level : yb;
             const std::vector<Formula> ends = book_.row(fmt::format("piece {}", i + 1), {ax, ay, bx, by});
-            const std::vector<Formula> p = book_.row("  pressures at its ends", {unit_weight * (level - ends[1]),
+            const std::vector<Formula> p = book_.row("  pressures at its ends [N/m2]", {unit_weight * (level - ends[1]),
                                                                                 unit_weight * (level - ends[3])});
             const Formula nx = side * (ends[3] - ends[1]), ny = -side * (ends[2] - ends[0]);
             const std::vector<Formula> forces = book_.row(
-                "  Fx, its moment, Fy, its moment",
+                "  Fx, its moment, Fy, its moment [N/m, N m/m]",
                 {0.5 * (p[0] + p[1]) * nx, 0.0 - product(p[0], p[1], ends[1], ends[3]) * nx, 0.5 * (p[0] + p[1]) * ny,
                  product(p[0], p[1], ends[0], ends[2]) * ny});
             fx.push_back(forces[0]), mx.push_back(forces[1]), fy.push_back(forces[2]), my.push_back(forces[3]);
@@ -342,6 +353,7 @@ private:
     const Equilibrium& e_;
     Combination combination_;
     Given given_;
+    std::vector<std::vector<Formula>> corners_; ///< x, y; the first again at the end; empty: a section with a thickness
     std::vector<LoadCells> loads_;
     Formula area_ = 0.0, centre_x_ = 0.0, centre_y_ = 0.0, force_x_ = 0.0, force_y_ = 0.0, moment_ = 0.0, uplift_ = 0.0,
             uplift_moment_ = 0.0, length_ = 0.0, cos_ = 1.0, sin_ = 0.0, normal_ = 0.0, shear_ = 0.0, distance_ = 0.0,

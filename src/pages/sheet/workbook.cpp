@@ -184,10 +184,10 @@ void Workbook::compare(const std::string& name, const Formula& of_sheet, double 
         word(name, "none");
         return;
     }
-    const auto at = static_cast<lxw_row_t>(row_);
-    const std::vector<Formula> pair = row(name, {of_sheet, of_program});
-    cell(3, abs(pair[0] - pair[1]) / max(max(abs(pair[0]), abs(pair[1])), 1e-300));
-    worksheet_write_string(sheet_->page, at, 4, unit.c_str(), nullptr);
+    worksheet_write_string(sheet_->page, static_cast<lxw_row_t>(row_), name_column, name.c_str(), nullptr);
+    const Formula ours = cell(1, of_sheet), theirs = cell(2, of_program);
+    cell(3, abs(ours - theirs) / max(max(abs(ours), abs(theirs)), 1e-300));
+    worksheet_write_string(sheet_->page, static_cast<lxw_row_t>(row_++), 4, unit.c_str(), nullptr);
 }
 
 void Workbook::close()
