@@ -10,6 +10,7 @@ for part in "$@"; do
         package) packages+=(dpkg-dev file) ;;
         python) packages+=(python3-dev pybind11-dev python3-numpy python3-pandas python3-vtk9) ;;
         reports) packages+=(chromium) ;;
+        office) packages+=(libreoffice-calc-nogui) ;;
         notebook) packages+=(jupyter-nbconvert python3-ipykernel) ;;
     esac
 done

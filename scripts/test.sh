@@ -20,6 +20,9 @@ if [ -n "$skipped" ]; then
 fi
 [ "${1:-}" = --all ] || exit 0
 
+scripts/setup.sh office
+build/release/damslip-verify verify --digest -q   # the verification record of the release
+
 ctest --test-dir build/release --label-regex '^long$' --output-on-failure --no-tests=error --parallel "$(nproc)"
 tests/surroundings/check_fragility.sh build/release/damslip . 20
 scripts/python.sh --notebook

@@ -66,8 +66,13 @@ def computed(cells, changed=None):
 
 
 def by_office(file):
-    """The same by LibreOffice, told to compute all when it opens the file."""
+    """The same by LibreOffice, from the formulas alone: the values beside them are taken out first."""
     with tempfile.TemporaryDirectory() as folder:
+        bare = pathlib.Path(folder) / "bare" / file.name
+        bare.parent.mkdir()
+        with zipfile.ZipFile(file) as full, zipfile.ZipFile(bare, "w") as without:
+            for part in full.namelist():
+                without.writestr(part, re.sub(rb"(</f>)<v>[^<]*</v>", rb"\1", full.read(part)))
         profile = pathlib.Path(folder) / "profile" / "user"
         profile.mkdir(parents=True)
         (profile / "registrymodifications.xcu").write_text(
@@ -76,7 +81,7 @@ def by_office(file):
             '<item oor:path="/org.openoffice.Office.Calc/Formula/Load"><prop oor:name="OOXMLRecalcMode" oor:op="fuse">'
             "<value>0</value></prop></item></oor:items>")
         subprocess.run(["soffice", f"-env:UserInstallation=file://{profile.parent}", "--headless", "--convert-to", "xlsx:Calc MS Excel 2007 XML",
-                        "--outdir", folder, str(file)], check=True, capture_output=True)
+                        "--outdir", folder, str(bare)], check=True, capture_output=True)
         return {name: {cell: value for cell, (_, value) in cells.items()}
                 for name, cells in sheets(pathlib.Path(folder) / file.name).items()}
 
@@ -149,7 +154,8 @@ water_factor = 1.1
 """
 
 if office and not shutil.which("soffice"):
-    sys.exit("no LibreOffice")
+    print("no LibreOffice")
+    sys.exit(77)
 with tempfile.TemporaryDirectory() as folder:
     folder = pathlib.Path(folder)
     (folder / "silt.toml").write_text(SILT)

@@ -110,7 +110,9 @@ Table class_table(const std::vector<CaseOutcome>& outcomes, const std::vector<Ha
     rows.push_back(two);
     for (const SourceOutcome& s : external) {
         if (s.results.empty()) continue; // its folder is not at hand
-        Row row{"results of others: " + s.subject->id, 1, s.results.size()};
+        const std::string& id = s.subject->id;
+        const char* const kind = id == "slammer" ? "another program: " : id == "rea-liaw-chopra-1972" ? "measured on a dam: " : "published: ";
+        Row row{kind + id, 1, s.results.size()};
         for (const external::Result& r : s.results) row.outside += !r.within();
         rows.push_back(row);
     }
@@ -162,11 +164,17 @@ Table reference_table(const CaseOutcome& o)
                            o.checks);
 }
 
+std::string sentence(const char* name, std::string text)
+{
+    if (!text.ends_with('.')) text += '.';
+    return name + (": " + text);
+}
+
 Section sheet(const CaseOutcome& o)
 {
     return {o.subject->id,
-            {Paragraph{o.subject->claim}, Paragraph{"Source: " + o.subject->source + "."},
-             Paragraph{"Tolerance: " + o.subject->tolerance + "."}, rows_part(reference_table(o))}};
+            {Paragraph{o.subject->claim}, Paragraph{sentence("Source", o.subject->source)},
+             Paragraph{sentence("Tolerance", o.subject->tolerance)}, rows_part(reference_table(o))}};
 }
 
 } // namespace
