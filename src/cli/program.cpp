@@ -6,6 +6,7 @@
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/text.hpp"
+#include "scene/read.hpp"
 
 #include <algorithm>
 #include <climits>
@@ -41,9 +42,11 @@ std::string error_json(const std::string& message, const std::vector<Diagnostic>
 }
 
 /// The sentences, and the error object where --json was asked for.
-void report_error(const std::string& message, const std::vector<Diagnostic>& diagnostics, int code, Form form,
-                  std::ostream& out, std::ostream& talk)
+void report_error(std::string message, std::vector<Diagnostic> diagnostics, int code, Form form, std::ostream& out,
+                  std::ostream& talk)
 {
+    for (Diagnostic& d : diagnostics) d = with_line(std::move(d));
+    if (!diagnostics.empty()) message = InputError(diagnostics).what();
     talk << message << "\n";
     if (form == Form::json) out << error_json(message, diagnostics, code);
     out.flush();

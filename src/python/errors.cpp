@@ -2,6 +2,7 @@
 #include "result.hpp"
 
 #include "core/input_error.hpp"
+#include "scene/read.hpp"
 
 namespace damslip::python {
 
@@ -10,7 +11,8 @@ namespace {
 py::list as_dictionaries(const std::vector<Diagnostic>& diagnostics)
 {
     py::list list;
-    for (const Diagnostic& d : diagnostics) {
+    for (const Diagnostic& given : diagnostics) {
+        const Diagnostic d = with_line(given);
         py::dict entry;
         entry["file"] = d.file;
         entry["line"] = d.line;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/input_error.hpp"
 #include "scene/scene.hpp"
 
 #include <string_view>
@@ -20,6 +21,10 @@ Scene read_scene(const std::filesystem::path& file);
 /// The same from memory. @param file  name for messages; record files are relative to its folder.
 Scene parse_scene(std::string_view toml_text, const std::filesystem::path& file,
                   FileCheck check = FileCheck::must_exist);
+
+/// The diagnostic of a scene with the line of the first key or table that it names ("contact.sliding", "seam[2].exit", "[lifts]"), where
+/// it has none: what is found wrong once a scene is read knows its keys, not their places.
+Diagnostic with_line(Diagnostic diagnostic);
 
 /// "x (2)", "x (3)" for records whose name another one has already: tables and files tell records apart by their names.
 void number_names(std::vector<RecordFiles>& records);

@@ -296,7 +296,7 @@ TEST(FeSeam, SaysWhatFiniteElementsDoNotFollow)
               "no seam is named \"E\". | seams: D; lifts slide beside the base without --plane | write  --plane \"D\"");
     scene = elastic_seam(1.0);
     scene.seams[0].interface.angle = 70.0 * deg;
-    EXPECT_EQ(message(scene), "--plane \"D\" by finite elements: interface.angle_deg is not 90. | upright interfaces | "
+    EXPECT_EQ(message(scene), "seam[1] \"D\" by finite elements (--plane): interface.angle_deg is not 90. | upright interfaces | "
                               "write  angle_deg = 90  in [seam.interface], or use  damslip screen");
     scene = elastic_seam(1.0);
     scene.seams[0].dilation = 5.0 * deg;

@@ -7,6 +7,8 @@
 
 #include <fstream>
 #include <gtest/gtest.h>
+#include <string>
+#include <unistd.h>
 
 namespace {
 
@@ -36,6 +38,29 @@ TEST(Scene, SectionByDimensionsIsTheReferencePolygon)
     EXPECT_DOUBLE_EQ(area(scene.section), 1599.75); // 12 * 62.5 + (45 - 12) * 51.5 / 2
     EXPECT_EQ(upstream_face(scene.section), (Polyline{{0, 0}, {0, 62.5}}));
     EXPECT_EQ(downstream_face(scene.section), (Polyline{{45, 0}, {12, 51.5}, {12, 62.5}}));
+}
+
+// What is found wrong after reading has the line of the key or table that it names.
+TEST(Scene, AMessageWithoutALineGetsThatOfItsKey)
+{
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / ("damslip line " + std::to_string(::getpid()) + ".toml");
+    std::ofstream(file) << "# a comment\n" << minimal << "sliding = \"finite\"\n[reservoir]\nlevel_m = 40\n[[seam]]\nname = \"A\"\n[[seam]]\n"
+                        << "name = \"B\"\nexit = \"toe\"\n";
+    const auto line = [&](const std::string& problem, const std::string& fix = "") {
+        return with_line(Diagnostic{file.string(), 0, 0, problem, "", fix}).line;
+    };
+    EXPECT_EQ(line("contact.sliding = \"finite\" with [lifts]."), 10);
+    EXPECT_EQ(line("reservoir.level is above."), 12); // with its unit in the file
+    EXPECT_EQ(line("the dam, see [reservoir], is dry."), 11);
+    EXPECT_EQ(line("seam[2] \"B\" ends there."), 15);
+    EXPECT_EQ(line("seam[2].exit is unknown."), 17);
+    EXPECT_EQ(line("[[seam]] is not followed."), 13);
+    EXPECT_EQ(line("nothing is found.", "write it in [dam]"), 7);
+    EXPECT_EQ(line("no.such key, nor [uplift] e.g. 3.5 of seam[7]."), 0);
+    EXPECT_EQ(with_line(Diagnostic{file.string(), 3, 0, "contact.sliding"}).line, 3); // it has one
+    std::filesystem::remove(file);
+    EXPECT_EQ(line("contact.sliding"), 0);
 }
 
 TEST(Scene, AbsentTablesStayAbsent)

@@ -86,7 +86,7 @@ void check(const Scene& scene, const Seam& seam)
     for (const Obstacle& o : obstacles)
         if (o.there(scene, seam))
             throw InputError(Diagnostic{scene.file.string(), 0, 0,
-                                        fmt::format("--plane \"{}\" by finite elements: {}.", seam.name, o.what),
+                                        fmt::format("seam[{}] \"{}\" by finite elements (--plane): {}.", &seam - scene.seams.data() + 1, seam.name, o.what),
                                         o.expected, o.fix});
 }
 
