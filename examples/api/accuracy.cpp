@@ -11,17 +11,17 @@ int main(int, char** argv)
 try {
     const Watch nobody; // silent, never stops
     const Accuracy accuracy = measure_accuracy(read_scene(argv[1]), 0.02, Effort::quick, nobody);
-    for (std::size_t i = 0; i < accuracy.rungs.size(); ++i) {
-        const RungResult& rung = accuracy.rungs[i];
-        const RungVerdict& verdict = accuracy.judgement.rungs[i];
-        if (rung.done())
-            std::printf("%-28s %9.4f mm  %8.3g s  off by %s\n", rung_id(rung.rung).c_str(), 1e3 * rung.largest_slip(),
-                        rung.seconds, verdict.deviation ? std::to_string(*verdict.deviation).c_str() : "?");
+    for (std::size_t i = 0; i < accuracy.model_levels.size(); ++i) {
+        const ModelLevelResult& model_level = accuracy.model_levels[i];
+        const ModelLevelVerdict& verdict = accuracy.judgement.model_levels[i];
+        if (model_level.done())
+            std::printf("%-28s %9.4f mm  %8.3g s  off by %s\n", model_level_id(model_level.model_level).c_str(), 1e3 * model_level.largest_slip(),
+                        model_level.seconds, verdict.deviation ? std::to_string(*verdict.deviation).c_str() : "?");
         else
-            std::printf("%-28s %s\n", rung_id(rung.rung).c_str(), rung.remark.c_str());
+            std::printf("%-28s %s\n", model_level_id(model_level.model_level).c_str(), model_level.remark.c_str());
     }
     if (accuracy.judgement.choice)
-        std::printf("cheapest within 2 %%: %s\n", rung_id(accuracy.rungs[*accuracy.judgement.choice].rung).c_str());
+        std::printf("cheapest within 2 %%: %s\n", model_level_id(accuracy.model_levels[*accuracy.judgement.choice].model_level).c_str());
 } catch (const InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return exit_input;

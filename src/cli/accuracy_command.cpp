@@ -1,6 +1,6 @@
 #include "analysis/accuracy/accuracy.hpp"
-#include "analysis/accuracy/ladder.hpp"
-#include "analysis/accuracy/rung_runner.hpp"
+#include "analysis/accuracy/hierarchy.hpp"
+#include "analysis/accuracy/model_level_runner.hpp"
 #include "analysis/assess/assess.hpp"
 #include "analysis/fragility/fragility_study.hpp"
 #include "analysis/prepare/ready.hpp"
@@ -31,25 +31,25 @@ namespace damslip::cli {
 
 struct AccuracyArguments {
     RunInputs inputs;
-    double tolerance = 0.02;      ///< of the deviation from the finest rung [-]
-    int repeats = 3;              ///< of short rungs
-    double budget = 300.0;        ///< processor time of all rungs together [s]
-    bool quick = false;           ///< fewer rungs
+    double tolerance = 0.02;      ///< of the deviation from the finest model level [-]
+    int repeats = 3;              ///< of short model levels
+    double budget = 300.0;        ///< processor time of all model levels together [s]
+    bool quick = false;           ///< fewer model levels
     bool all_records = false;     ///< else the first
-    std::string rung;             ///< run this one alone; empty: the ladder
-    std::filesystem::path out;    ///< folder for report, tables, figure and the rungs' scenes; empty: none
+    std::string model_level;             ///< run this one alone; empty: the hierarchy
+    std::filesystem::path out;    ///< folder for report, tables, figure and the model levels' scenes; empty: none
     std::filesystem::path report; ///< the report alone; empty: none
     std::filesystem::path pdf;    ///< the report on paper; empty: none
     std::filesystem::path svg;    ///< the figure alone; empty: none
-    bool probability = false;     ///< what the interval of a probability costs, in place of the ladder
+    bool probability = false;     ///< what the interval of a probability costs, in place of the hierarchy
     std::string method;           ///< of --probability: as of fragility; empty: rigid-v or rigid
     std::optional<double> level;  ///< of --probability, in the unit of the levels; none: P nearest to 0.1
     std::optional<int> samples; ///< of --probability: runs of the largest estimate; none: 16384, of finite elements 128
     int jobs = 0;               ///< of --probability: threads; 0: all cores
 };
 
-/// Climbs the ladder of methods on a scene: slip, its error, its cost; names the cheapest rung within the tolerance.
-/// @returns exit_no_answer where no rung is within it, or after an interrupt; what was computed is written all the
+/// Runs the hierarchy of methods on a scene: slip, its error, its cost; names the cheapest model level within the tolerance.
+/// @returns exit_no_answer where no model level is within it, or after an interrupt; what was computed is written all the
 /// same.
 int accuracy(const AccuracyArguments& arguments, const Streams& streams);
 
@@ -63,8 +63,8 @@ namespace {
 
 void check(const AccuracyArguments& a)
 {
-    if (!a.pdf.empty() && !a.rung.empty())
-        refuse_usage("--pdf with --rung.", "a report of all model levels", "leave one of them out");
+    if (!a.pdf.empty() && !a.model_level.empty())
+        refuse_usage("--pdf with --model-level.", "a report of all model levels", "leave one of them out");
     if (!(a.tolerance > 0.0 && std::isfinite(a.tolerance)))
         refuse_usage(fmt::format("--tolerance {} is not allowed.", a.tolerance), "a share of the slip > 0",
                      "for 2 % write  --tolerance 0.02");
@@ -77,19 +77,19 @@ void check(const AccuracyArguments& a)
                                       {"--samples", a.samples.has_value()}})
         if (given && !a.probability)
             refuse_usage(fmt::format("{} without --probability.", flag), "both", "add  --probability");
-    if (!a.rung.empty() && !parse_rung(a.rung))
-        refuse_usage("--rung " + a.rung + " is not known.", "a model level as the table names it",
-                     "for example  --rung fe-added-mass:dt/4  or  --rung rigid:h");
+    if (!a.model_level.empty() && !parse_model_level(a.model_level))
+        refuse_usage("--model-level " + a.model_level + " is not known.", "a model level as the table names it",
+                     "for example  --model-level fe-added-mass:dt/4  or  --model-level rigid:h");
 }
 
-/// The command that runs one rung with the same scene and records.
-std::string command_of(const AccuracyArguments& a, const Rung& rung)
+/// The command that runs one model level with the same scene and records.
+std::string command_of(const AccuracyArguments& a, const ModelLevel& model_level)
 {
     std::string command = "damslip accuracy " + shell_words(a.inputs);
     if (a.inputs.scale) command += " --scale " + shortest(*a.inputs.scale);
     if (a.inputs.friction) command += " --friction " + shortest(*a.inputs.friction);
     if (a.all_records) command += " --all-records";
-    return command + " --rung " + shell_quoted(rung_id(rung));
+    return command + " --model-level " + shell_quoted(model_level_id(model_level));
 }
 
 struct Loaded {
@@ -123,8 +123,8 @@ Loaded load(const AccuracyArguments& a, const Streams& streams)
     return loaded;
 }
 
-std::vector<std::string> messages_of(const LadderFacts& facts, const Loaded& loaded,
-                                     const std::vector<RungResult>& results, bool interrupted)
+std::vector<std::string> messages_of(const HierarchyFacts& facts, const Loaded& loaded,
+                                     const std::vector<ModelLevelResult>& results, bool interrupted)
 {
     std::vector<std::string> messages;
     if (const std::optional<std::string> note = base_note(loaded.scene)) messages.push_back(*note + ".");
@@ -135,56 +135,56 @@ std::vector<std::string> messages_of(const LadderFacts& facts, const Loaded& loa
                                        "worst counts.",
                                        loaded.in_scene, loaded.records->front().files.name));
     messages.push_back(fmt::format("Every model level is run with {}.", polarity_words(polarities_of(loaded.scene))));
-    for (const RungResult& r : results)
+    for (const ModelLevelResult& r : results)
         if (!r.done())
-            messages.push_back(fmt::format("{} {}: {}", rung_id(r.rung),
-                                           r.outcome == RungOutcome::skipped ? "skipped" : word(r.status), r.remark));
+            messages.push_back(fmt::format("{} {}: {}", model_level_id(r.model_level),
+                                           r.outcome == ModelLevelOutcome::skipped ? "skipped" : word(r.status), r.remark));
     if (interrupted) messages.push_back("Interrupted: the model levels that were finished count.");
     return messages;
 }
 
-/// Scenes of the finite-element rungs, for `fe`.
-void write_rung_scenes(const std::filesystem::path& out, const Scene& scene, const std::vector<RungResult>& results)
+/// Scenes of the finite-element model levels, for `fe`.
+void write_model_level_scenes(const std::filesystem::path& out, const Scene& scene, const std::vector<ModelLevelResult>& results)
 {
-    for (const RungResult& r : results)
-        if (r.done() && r.rung.family == RungFamily::finite_elements)
-            write_file(out / "rungs" / (file_word(rung_id(r.rung)) + ".toml"), resolved_toml(scene_of(scene, r.rung)));
+    for (const ModelLevelResult& r : results)
+        if (r.done() && r.model_level.family == ModelLevelFamily::finite_elements)
+            write_file(out / "rungs" / (file_word(model_level_id(r.model_level)) + ".toml"), resolved_toml(scene_of(scene, r.model_level)));
 }
 
-void write_csv(const std::filesystem::path& out, const Scene& scene, const std::vector<RungResult>& results,
+void write_csv(const std::filesystem::path& out, const Scene& scene, const std::vector<ModelLevelResult>& results,
                double tolerance)
 {
-    write_file(out / "accuracy.csv", accuracy_csv(scene, results, judge_rungs(results, tolerance)));
+    write_file(out / "accuracy.csv", accuracy_csv(scene, results, judge_model_levels(results, tolerance)));
 }
 
-/// One rung alone: its slip, by motion.
-int run_one(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& runner, const Streams& streams)
+/// One model level alone: its slip, by motion.
+int run_one(const AccuracyArguments& a, const Loaded& loaded, const ModelLevelRunner& runner, const Streams& streams)
 {
-    const Rung rung = *parse_rung(a.rung);
-    ClimbCalls calls;
-    calls.run = [&](const Rung& r) { return runner.run(r); };
-    const RungResult result = run_repeatedly(rung, 1, calls);
-    if (result.outcome == RungOutcome::refused)
+    const ModelLevel model_level = *parse_model_level(a.model_level);
+    HierarchyCalls calls;
+    calls.run = [&](const ModelLevel& r) { return runner.run(r); };
+    const ModelLevelResult result = run_repeatedly(model_level, 1, calls);
+    if (result.outcome == ModelLevelOutcome::refused)
         throw InputError(
-            Diagnostic{a.inputs.scene.string(), 0, 0, fmt::format("--rung {} is refused: {}", a.rung, result.remark),
-                       "a model level that this scene admits", "leave --rung out: the table lists those that run"});
+            Diagnostic{a.inputs.scene.string(), 0, 0, fmt::format("--model-level {} is refused: {}", a.model_level, result.remark),
+                       "a model level that this scene admits", "leave --model-level out: the table lists those that run"});
     const std::vector<MotionName> motions = motion_names(loaded.scene, *loaded.records);
-    put_answer(one_rung_answer(result, motions), "--out DIR", streams);
+    put_answer(one_model_level_answer(result, motions), "--out DIR", streams);
     if (!a.out.empty()) {
-        write_file(a.out / "scene.toml", resolved_toml(scene_of(loaded.scene, rung)));
-        if (!streams.quiet && rung.family == RungFamily::finite_elements)
+        write_file(a.out / "scene.toml", resolved_toml(scene_of(loaded.scene, model_level)));
+        if (!streams.quiet && model_level.family == ModelLevelFamily::finite_elements)
             streams.talk << "histories and fields:  damslip fe " << shell_quoted((a.out / "scene.toml").string())
-                         << (rung.modes ? fmt::format(" --reduced --modes {}", *rung.modes) : "") << " --out "
+                         << (model_level.modes ? fmt::format(" --reduced --modes {}", *model_level.modes) : "") << " --out "
                          << shell_quoted(a.out.string()) << "\n";
     }
     return status_row(result.status).exit_code;
 }
 
-std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& runner,
-                                    const LadderFacts& facts, Watch& watch, const Streams& streams)
+std::vector<ModelLevelResult> run_aloud(const AccuracyArguments& a, const Loaded& loaded, const ModelLevelRunner& runner,
+                                    const HierarchyFacts& facts, Watch& watch, const Streams& streams)
 {
-    ClimbOptions options;
-    options.ladder = {a.quick ? Effort::quick : Effort::full, a.tolerance};
+    HierarchyRunOptions options;
+    options.hierarchy = {a.quick ? Effort::quick : Effort::full, a.tolerance};
     options.repeats = a.repeats;
     options.budget = a.budget;
     Stopwatch since_line;
@@ -193,24 +193,24 @@ std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& lo
         since_line = Stopwatch();
         return true;
     };
-    ClimbCalls calls;
-    calls.run = [&](const Rung& rung) { return runner.run(rung); };
-    calls.least_seconds = [&](const Rung& rung) { return runner.least_seconds(rung); };
+    HierarchyCalls calls;
+    calls.run = [&](const ModelLevel& model_level) { return runner.run(model_level); };
+    calls.least_seconds = [&](const ModelLevel& model_level) { return runner.least_seconds(model_level); };
     calls.interrupted = [&] { return watch.stop_asked(); };
-    calls.begins = [&](const Rung& rung) {
+    calls.begins = [&](const ModelLevel& model_level) {
         if (streams.bar)
-            *streams.bar << "  " << rung_id(rung) << " ..." << std::flush;
+            *streams.bar << "  " << model_level_id(model_level) << " ..." << std::flush;
         else if (line_is_due())
-            streams.talk << "accuracy: " << rung_id(rung) << " begins\n" << std::flush;
+            streams.talk << "accuracy: " << model_level_id(model_level) << " begins\n" << std::flush;
     };
-    calls.ends = [&](const std::vector<RungResult>& results) {
-        const RungResult& r = results.back();
+    calls.ends = [&](const std::vector<ModelLevelResult>& results) {
+        const ModelLevelResult& r = results.back();
         watch.results_at_hand();
         const std::string said =
-            r.done() ? fmt::format("{:<32} {:>10.5g} mm {:>9.3g} s", rung_id(r.rung), r.largest_slip() / units::mm,
+            r.done() ? fmt::format("{:<32} {:>10.5g} mm {:>9.3g} s", model_level_id(r.model_level), r.largest_slip() / units::mm,
                                    r.seconds)
-                     : fmt::format("{:<32} {}: {}", rung_id(r.rung),
-                                   r.outcome == RungOutcome::skipped ? "skipped" : word(r.status), r.remark);
+                     : fmt::format("{:<32} {}: {}", model_level_id(r.model_level),
+                                   r.outcome == ModelLevelOutcome::skipped ? "skipped" : word(r.status), r.remark);
         if (streams.bar)
             *streams.bar << "\r  " << said << "\n";
         else if (line_is_due())
@@ -218,7 +218,7 @@ std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& lo
         if (!a.out.empty()) write_csv(a.out, loaded.scene, results, a.tolerance); // what is finished is not lost
     };
     const Stopwatch start;
-    std::vector<RungResult> results = climb(facts, options, calls);
+    std::vector<ModelLevelResult> results = run_hierarchy(facts, options, calls);
     if (!streams.quiet && !streams.terminal)
         streams.talk << fmt::format("accuracy: {} model level{}, {:.3g} s\n", results.size(),
                                     results.size() == 1 ? "" : "s", start.seconds());
@@ -235,14 +235,14 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
     say_base(loaded.scene, streams);
     TerminalWatch watch(streams);
     BudgetWatchOf<ProcessorClock> budget(watch, a.budget);
-    const RungRunner runner(loaded.scene, loaded.records, loaded.seconds, budget);
-    if (!a.rung.empty()) return run_one(a, loaded, runner, streams);
+    const ModelLevelRunner runner(loaded.scene, loaded.records, loaded.seconds, budget);
+    if (!a.model_level.empty()) return run_one(a, loaded, runner, streams);
 
-    const LadderFacts facts = runner.facts();
-    const std::vector<RungResult> results = climb_aloud(a, loaded, runner, facts, watch, streams);
-    const Judgement judgement = judge_rungs(results, a.tolerance);
+    const HierarchyFacts facts = runner.facts();
+    const std::vector<ModelLevelResult> results = run_aloud(a, loaded, runner, facts, watch, streams);
+    const Judgement judgement = judge_model_levels(results, a.tolerance);
     const std::vector<std::string> messages = messages_of(facts, loaded, results, watch.stop_asked());
-    const std::string command = judgement.choice ? command_of(a, results[*judgement.choice].rung) : "";
+    const std::string command = judgement.choice ? command_of(a, results[*judgement.choice].model_level) : "";
     const AccuracyReportInput in{loaded.scene, *loaded.records, results, judgement, a.tolerance, command, messages};
     const Answer answer = accuracy_answer(in);
     put_answer(answer, "--out DIR", streams);
@@ -255,7 +255,7 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
         answer.write(a.out, {});
         write_file(a.out / "scene_resolved.toml", resolved_toml(loaded.scene));
         if (!figure.empty()) write_file(a.out / "accuracy.svg", figure);
-        write_rung_scenes(a.out, loaded.scene, results);
+        write_model_level_scenes(a.out, loaded.scene, results);
         write_file(a.out / "report.html", page());
         name_report(a.out / "report.html", streams);
     }
@@ -288,7 +288,7 @@ void accuracy_flags(CLI::App& sub, AccuracyArguments& a)
                    "processor seconds for all model levels together; what would exceed them is listed as skipped")
         ->capture_default_str();
     sub.add_flag("--quick", a.quick, "fewer steps, no finer mesh, one reduced run, no other contact law or scheme");
-    sub.add_option("--rung", a.rung, "run this model level alone, named as in the table: fe-acoustic:dt/4,2h");
+    sub.add_option("--model-level,--rung", a.model_level, "run this model level alone, named as in the table: fe-acoustic:dt/4,2h");
     add_out(sub, a.out, OutputPath::folder,
             "folder for report.html, accuracy.csv, accuracy.svg, summary.json and the scenes of all model levels");
     sub.add_option("--report", a.report, "the report alone (.html)")->check(output_to(OutputPath::file, "--report"));
@@ -324,7 +324,7 @@ namespace {
 void check_probability_flags(const AccuracyArguments& a)
 {
     const RunInputs& in = a.inputs;
-    for (const auto& [flag, given] : {std::pair{"--rung", !a.rung.empty()},
+    for (const auto& [flag, given] : {std::pair{"--model-level", !a.model_level.empty()},
                                       {"--quick", a.quick},
                                       {"--all-records", a.all_records},
                                       {"--record", !in.records.empty()},

@@ -23,14 +23,14 @@ struct AccuracyResult final : Result {
 
     pages::AccuracyReportInput input() const
     {
-        return {scene, *records, found.rungs, found.judgement, tolerance, "", {}};
+        return {scene, *records, found.model_levels, found.judgement, tolerance, "", {}};
     }
     pages::Answer answer() const override { return pages::accuracy_answer(input()); }
     std::string first_table() const override { return "rungs"; }
     pages::Page page() const override { return pages::accuracy_page(input()); }
     pages::Headline headline() const override
     {
-        return {pages::choice_sentence(found.rungs, found.judgement, tolerance), pages::Outcome::none, ""};
+        return {pages::choice_sentence(found.model_levels, found.judgement, tolerance), pages::Outcome::none, ""};
     }
 };
 
@@ -59,7 +59,7 @@ void add_accuracy(py::module_& module)
     py::class_<AccuracyResult, Result, std::shared_ptr<AccuracyResult>>(module, "AccuracyResult")
         .def_property_readonly("choice", [](const AccuracyResult& r) -> std::optional<std::string> {
             if (!r.found.judgement.choice) return std::nullopt;
-            return rung_id(r.found.rungs[*r.found.judgement.choice].rung);
+            return model_level_id(r.found.model_levels[*r.found.judgement.choice].model_level);
         });
     module.def("_accuracy", &accuracy, py::arg("scene"), py::arg("tolerance"), py::arg("quick"), py::arg("progress"));
 }

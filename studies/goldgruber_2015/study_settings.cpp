@@ -41,7 +41,7 @@ const std::vector<Change>& changes()
     return list;
 }
 
-Axes ladder_axes()
+Axes settings_axes()
 {
     Axes axes;
     axes.friction = chapter_4::frictions;
@@ -54,10 +54,10 @@ Axes ladder_axes()
 
 } // namespace
 
-std::vector<SettingsStep> settings_ladder(const Scene& given, const Records& records, int jobs, Watch& watch)
+std::vector<SettingsStep> settings_steps(const Scene& given, const Records& records, int jobs, Watch& watch)
 {
     std::vector<SettingsStep> steps;
-    Axes axes = ladder_axes();
+    Axes axes = settings_axes();
     axes.level = {given.reservoir->level};
     axes.polarity = {study_polarity(given)};
     const TaskList tasks = make_tasks(axes, 1);

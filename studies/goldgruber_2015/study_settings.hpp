@@ -16,7 +16,7 @@ struct SettingsStep {
 
 /// From the accurate settings to the source's, one change after the other: what each of them does to the slip. The last step is the
 /// preset. @returns fewer steps when interrupted
-std::vector<SettingsStep> settings_ladder(const Scene& scene, const Records& records, int jobs, Watch& watch);
+std::vector<SettingsStep> settings_steps(const Scene& scene, const Records& records, int jobs, Watch& watch);
 
 Table settings_table(const std::vector<SettingsStep>& steps);
 

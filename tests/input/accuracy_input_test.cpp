@@ -1,4 +1,4 @@
-// Wrong command lines of `damslip accuracy`, scenes without some kinds of rungs, and what it writes.
+// Wrong command lines of `damslip accuracy`, scenes without some kinds of model levels, and what it writes.
 #include "cli/program.hpp"
 
 #include <gtest/gtest.h>
@@ -57,8 +57,8 @@ TEST_F(AccuracyInput, OptionsOutsideTheirRange)
     run({scene, "--tolerance", "-0.1"}, 2, "--tolerance -0.1 is not allowed");
     run({scene, "--repeats", "0"}, 2, "--repeats 0 is not allowed");
     run({scene, "--budget", "0"}, 2, "--budget 0 is not allowed");
-    run({scene, "--rung", "fe:dt"}, 2, "--rung fe:dt is not known");
-    run({scene, "--rung", "fe-acoustic:dt/3"}, 2, "a model level as the table names it");
+    run({scene, "--rung", "fe:dt"}, 2, "--model-level fe:dt is not known");
+    run({scene, "--model-level", "fe-acoustic:dt/3"}, 2, "a model level as the table names it");
     run({path("still.toml")}, 3, "the scene has no record");
 }
 
@@ -71,13 +71,13 @@ TEST_F(AccuracyInput, ASceneWithoutElasticityHasNoFiniteElementsAndSaysSo)
     EXPECT_NE(out.find("Cheapest model level within 2 %: rigid:h"), std::string::npos);
 }
 
-TEST_F(AccuracyInput, ARungThatTheSceneCannotRunIsRefused)
+TEST_F(AccuracyInput, AModelLevelThatTheSceneCannotRunIsRefused)
 {
-    for (const char* part : {"rigid.toml: error: --rung fe-dry:dt is refused", "young_modulus", "expected:", "fix:"})
+    for (const char* part : {"rigid.toml: error: --model-level fe-dry:dt is refused", "young_modulus", "expected:", "fix:"})
         run({path("rigid.toml"), "--rung", "fe-dry:dt"}, 3, part);
 }
 
-TEST_F(AccuracyInput, WritesReportTableFigureAndTheScenesOfItsRungs)
+TEST_F(AccuracyInput, WritesReportTableFigureAndTheScenesOfItsModelLevels)
 {
     run({path("elastic.toml"), "--quick", "--repeats", "1", "--tolerance", "0.9", "--out", path("out"), "--svg",
          path("own.svg")},

@@ -1,8 +1,8 @@
-// What the ladder says that steps and meshes leave open, beside the true error on scenes whose slip is known from much
-// finer runs; and the rung it names, run again.
-#include "analysis/accuracy/ladder.hpp"
+// What the hierarchy says that steps and meshes leave open, beside the true error on scenes whose slip is known from much
+// finer runs; and the model level it names, run again.
+#include "analysis/accuracy/hierarchy.hpp"
 #include "analysis/accuracy/accuracy.hpp"
-#include "analysis/accuracy/rung_runner.hpp"
+#include "analysis/accuracy/model_level_runner.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -14,12 +14,12 @@ namespace {
 
 using namespace damslip;
 
-/// A scene whose slip is known from much finer steps and meshes than the ladder's.
+/// A scene whose slip is known from much finer steps and meshes than the hierarchy's.
 struct KnownScene {
     std::string name;
     Scene scene;
     double pga; ///< of the burst [m/s^2]
-    RungWater water;
+    ModelLevelWater water;
     bool meshes = false; ///< other meshes too; else the slip is that of the scene's mesh
 };
 
@@ -52,11 +52,11 @@ Scene acoustic(Scene scene)
 
 std::vector<KnownScene> known_scenes()
 {
-    return {{"dry_dam_on_rigid_ground", dry_on_rigid_ground(0.3), 4.0, RungWater::dry},
-            {"added_mass", coarse_dam(0.77), 2.0, RungWater::added_mass},
-            {"acoustic_water", acoustic(coarse_dam(0.77)), 2.0, RungWater::acoustic},
-            {"acoustic_water_slippery", acoustic(coarse_dam(0.70)), 1.5, RungWater::acoustic},
-            {"added_mass_and_meshes", coarse_dam(0.70), 1.5, RungWater::added_mass, true}};
+    return {{"dry_dam_on_rigid_ground", dry_on_rigid_ground(0.3), 4.0, ModelLevelWater::dry},
+            {"added_mass", coarse_dam(0.77), 2.0, ModelLevelWater::added_mass},
+            {"acoustic_water", acoustic(coarse_dam(0.77)), 2.0, ModelLevelWater::acoustic},
+            {"acoustic_water_slippery", acoustic(coarse_dam(0.70)), 1.5, ModelLevelWater::acoustic},
+            {"added_mass_and_meshes", coarse_dam(0.70), 1.5, ModelLevelWater::added_mass, true}};
 }
 
 /// A burst of sines of 5 s, with its vertical component.
@@ -72,14 +72,14 @@ std::vector<RecordPair> burst(double pga)
     return {pair};
 }
 
-Rung plain(RungWater water, int halvings, double mesh)
+ModelLevel plain(ModelLevelWater water, int halvings, double mesh)
 {
-    Rung rung;
-    rung.family = RungFamily::finite_elements;
-    rung.water = water;
-    rung.halvings = halvings;
-    rung.mesh = mesh;
-    return rung;
+    ModelLevel model_level;
+    model_level.family = ModelLevelFamily::finite_elements;
+    model_level.water = water;
+    model_level.halvings = halvings;
+    model_level.mesh = mesh;
+    return model_level;
 }
 
 struct TrueSlip {
@@ -88,10 +88,10 @@ struct TrueSlip {
 };
 
 /// The slip with steps of dt/2^8, or dt/2^4 on elements of an eighth.
-TrueSlip true_slip(const KnownScene& known, const RungRunner& runner)
+TrueSlip true_slip(const KnownScene& known, const ModelLevelRunner& runner)
 {
-    const auto slip = [&](const Rung& rung) {
-        const RungResult result = runner.run(rung);
+    const auto slip = [&](const ModelLevel& model_level) {
+        const ModelLevelResult result = runner.run(model_level);
         return result.done() ? result.slip.front() : std::nan("");
     };
     if (known.meshes) return {slip(plain(known.water, 4, 0.125)), 0.0};
@@ -99,17 +99,17 @@ TrueSlip true_slip(const KnownScene& known, const RungRunner& runner)
     return {finest, std::abs(slip(plain(known.water, 7, 1.0)) - finest)};
 }
 
-std::vector<RungResult> climb(const KnownScene& known, const RungRunner& runner)
+std::vector<ModelLevelResult> run_hierarchy(const KnownScene& known, const ModelLevelRunner& runner)
 {
-    LadderFacts facts; // the model's own steps and meshes; nothing else
+    HierarchyFacts facts; // the model's own steps and meshes; nothing else
     facts.waters = {known.water};
     facts.coarsest = known.meshes ? 2.0 : 1.0;
-    ClimbOptions options;
+    HierarchyRunOptions options;
     options.repeats = 1;
-    options.ladder.effort = known.meshes ? Effort::full : Effort::quick;
-    ClimbCalls calls;
-    calls.run = [&](const Rung& rung) { return runner.run(rung); };
-    return climb(facts, options, calls);
+    options.hierarchy.effort = known.meshes ? Effort::full : Effort::quick;
+    HierarchyCalls calls;
+    calls.run = [&](const ModelLevel& model_level) { return runner.run(model_level); };
+    return run_hierarchy(facts, options, calls);
 }
 
 const Watch nobody;
@@ -122,18 +122,18 @@ class AccuracyEstimate : public testing::TestWithParam<std::size_t> {};
 TEST_P(AccuracyEstimate, IsWithinAFactorOfTwoOfTheError)
 {
     const KnownScene known = known_scenes()[GetParam()];
-    const RungRunner runner(known.scene, std::make_shared<const std::vector<RecordPair>>(burst(known.pga)), 0.0,
+    const ModelLevelRunner runner(known.scene, std::make_shared<const std::vector<RecordPair>>(burst(known.pga)), 0.0,
                             nobody);
-    const std::vector<RungResult> results = climb(known, runner);
-    const Judgement judgement = judge_rungs(results, 0.02);
+    const std::vector<ModelLevelResult> results = run_hierarchy(known, runner);
+    const Judgement judgement = judge_model_levels(results, 0.02);
     const TrueSlip truth = true_slip(known, runner);
     int judged = 0;
     for (std::size_t i = 0; i < results.size(); ++i) {
-        const RungResult& r = results[i];
-        if (r.rung.family != RungFamily::finite_elements || !r.rung.plain()) continue;
-        SCOPED_TRACE(rung_id(r.rung));
+        const ModelLevelResult& r = results[i];
+        if (r.model_level.family != ModelLevelFamily::finite_elements || !r.model_level.plain()) continue;
+        SCOPED_TRACE(model_level_id(r.model_level));
         ASSERT_TRUE(r.done()) << r.remark;
-        const double error = std::abs(r.slip.front() - truth.value), estimate = judgement.rungs[i].error.value();
+        const double error = std::abs(r.slip.front() - truth.value), estimate = judgement.model_levels[i].error.value();
         if (error < std::max(1e-3 * std::abs(truth.value), truth.scatter)) continue;
         EXPECT_GT(estimate, 0.5 * error);
         EXPECT_LT(estimate, 2.0 * error);
@@ -147,32 +147,32 @@ INSTANTIATE_TEST_SUITE_P(TwoScenes, AccuracyEstimate, testing::Range<std::size_t
 INSTANTIATE_TEST_SUITE_P(Thorough, AccuracyEstimate, testing::Range<std::size_t>(2, 5),
                          [](const auto& test) { return known_scenes()[test.param].name; });
 
-// All kinds of rungs of a small dam; the rung that is named, run again, has the same bits and is within the tolerance of
-// the finest rung's slip. A larger tolerance names none that is slower.
-TEST(AccuracyRun, TheNamedRungRunAgainIsWithinTheTolerance)
+// All kinds of model levels of a small dam; the model level that is named, run again, has the same bits and is within the tolerance of
+// the finest model level's slip. A larger tolerance names none that is slower.
+TEST(AccuracyRun, TheNamedModelLevelRunAgainIsWithinTheTolerance)
 {
     Scene scene = coarse_dam(0.70);
     scene.reservoir->model = ReservoirModel::automatic;
     scene.reservoir->length = 75.0;
-    const RungRunner runner(scene, std::make_shared<const std::vector<RecordPair>>(burst(1.5)), 0.0, nobody);
-    const LadderFacts facts = runner.facts();
-    EXPECT_EQ(facts.waters, (std::vector<RungWater>{RungWater::added_mass, RungWater::acoustic}));
+    const ModelLevelRunner runner(scene, std::make_shared<const std::vector<RecordPair>>(burst(1.5)), 0.0, nobody);
+    const HierarchyFacts facts = runner.facts();
+    EXPECT_EQ(facts.waters, (std::vector<ModelLevelWater>{ModelLevelWater::added_mass, ModelLevelWater::acoustic}));
     EXPECT_TRUE(facts.vertical);
     EXPECT_TRUE(facts.reducible);
-    ClimbOptions options;
+    HierarchyRunOptions options;
     options.repeats = 1;
-    options.ladder.effort = Effort::quick;
-    ClimbCalls calls;
-    calls.run = [&](const Rung& rung) { return runner.run(rung); };
-    const std::vector<RungResult> results = climb(facts, options, calls);
-    for (const RungResult& r : results) EXPECT_TRUE(r.done()) << rung_id(r.rung) << ": " << r.remark;
+    options.hierarchy.effort = Effort::quick;
+    HierarchyCalls calls;
+    calls.run = [&](const ModelLevel& model_level) { return runner.run(model_level); };
+    const std::vector<ModelLevelResult> results = run_hierarchy(facts, options, calls);
+    for (const ModelLevelResult& r : results) EXPECT_TRUE(r.done()) << model_level_id(r.model_level) << ": " << r.remark;
     double before = std::numeric_limits<double>::infinity();
     int named = 0;
     for (const double tolerance : {0.02, 0.05, 0.2, 0.5, 1.0, 2.0}) {
-        const Judgement j = judge_rungs(results, tolerance);
+        const Judgement j = judge_model_levels(results, tolerance);
         if (!j.choice) continue;
         ++named;
-        const RungResult again = runner.run(*parse_rung(rung_id(results[*j.choice].rung)));
+        const ModelLevelResult again = runner.run(*parse_model_level(model_level_id(results[*j.choice].model_level)));
         EXPECT_EQ(again.slip, results[*j.choice].slip);
         const double top = results[*j.top].slip.front();
         EXPECT_LE(std::abs(again.slip.front() - top), tolerance * std::abs(top));

@@ -1,6 +1,6 @@
-// The ladder's judgement: orders, limits, errors, front and choice from results that are made up, so that each is known.
+// The hierarchy's judgement: orders, limits, errors, front and choice from results that are made up, so that each is known.
 #include "analysis/accuracy/accuracy.hpp"
-#include "analysis/accuracy/ladder.hpp"
+#include "analysis/accuracy/hierarchy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,42 +15,42 @@ using namespace damslip;
 constexpr double exact = 0.05; // [m]
 
 /// Slip of an FE model whose errors are known: 0.01 (dt/2^k)^1.5 + 0.002 h^1.2, and 0.3/penalty, 0.02/modes.
-double slip_of(const Rung& r)
+double slip_of(const ModelLevel& r)
 {
     double slip = exact + 0.01 * std::exp2(-1.5 * r.halvings) + 0.002 * std::pow(r.mesh, 1.2);
-    if (r.water == RungWater::added_mass) slip *= 0.8;
+    if (r.water == ModelLevelWater::added_mass) slip *= 0.8;
     if (r.tangential_stiffness) slip += 0.3e8 / *r.tangential_stiffness;
     if (r.modes) slip += 0.004 / *r.modes;
     return slip;
 }
 
 /// Seconds go with steps, and with the number of elements.
-RungResult made_up(const Rung& rung)
+ModelLevelResult made_up(const ModelLevel& model_level)
 {
-    RungResult r;
-    r.rung = rung;
-    r.outcome = RungOutcome::done;
+    ModelLevelResult r;
+    r.model_level = model_level;
+    r.outcome = ModelLevelOutcome::done;
     r.repeats = 1;
-    if (rung.family == RungFamily::finite_elements) {
-        r.slip = {slip_of(rung)};
+    if (model_level.family == ModelLevelFamily::finite_elements) {
+        r.slip = {slip_of(model_level)};
         r.set_up_seconds = 0.1;
-        r.seconds = 0.1 + 0.2 * std::exp2(rung.halvings) * std::pow(rung.mesh, -2.0);
-        if (rung.modes) r.seconds *= 0.2;
-        if (!rung.element.empty()) r.seconds *= 3.5;
-        r.time_step = 0.01 / std::exp2(rung.halvings);
+        r.seconds = 0.1 + 0.2 * std::exp2(model_level.halvings) * std::pow(model_level.mesh, -2.0);
+        if (model_level.modes) r.seconds *= 0.2;
+        if (!model_level.element.empty()) r.seconds *= 3.5;
+        r.time_step = 0.01 / std::exp2(model_level.halvings);
     } else {
-        r.slip = {rung.family == RungFamily::rigid ? 0.03 : 0.02};
+        r.slip = {model_level.family == ModelLevelFamily::rigid ? 0.03 : 0.02};
         r.seconds = 0.001;
     }
     return r;
 }
 
-LadderFacts facts_of_a_dam()
+HierarchyFacts facts_of_a_dam()
 {
-    LadderFacts facts;
+    HierarchyFacts facts;
     facts.regressions = {"jibson-1998", "ensemble"};
     facts.vertical = true;
-    facts.waters = {RungWater::added_mass, RungWater::acoustic};
+    facts.waters = {ModelLevelWater::added_mass, ModelLevelWater::acoustic};
     facts.reducible = true;
     facts.alphas = {0.0, -0.3};
     facts.coarsest = 4.0;
@@ -58,22 +58,22 @@ LadderFacts facts_of_a_dam()
     return facts;
 }
 
-std::vector<RungResult> climbed(const ClimbOptions& options = {})
+std::vector<ModelLevelResult> levels_run(const HierarchyRunOptions& options = {})
 {
-    ClimbCalls calls;
+    HierarchyCalls calls;
     calls.run = made_up;
-    return climb(facts_of_a_dam(), options, calls);
+    return run_hierarchy(facts_of_a_dam(), options, calls);
 }
 
-const RungResult* rung(const std::vector<RungResult>& results, const std::string& id)
+const ModelLevelResult* model_level(const std::vector<ModelLevelResult>& results, const std::string& id)
 {
-    const auto at = std::find_if(results.begin(), results.end(), [&](const auto& r) { return rung_id(r.rung) == id; });
+    const auto at = std::find_if(results.begin(), results.end(), [&](const auto& r) { return model_level_id(r.model_level) == id; });
     return at == results.end() ? nullptr : &*at;
 }
 
-const RungVerdict& verdict(const std::vector<RungResult>& results, const Judgement& j, const std::string& id)
+const ModelLevelVerdict& verdict(const std::vector<ModelLevelResult>& results, const Judgement& j, const std::string& id)
 {
-    return j.rungs.at(static_cast<std::size_t>(rung(results, id) - results.data()));
+    return j.model_levels.at(static_cast<std::size_t>(model_level(results, id) - results.data()));
 }
 
 TEST(AccuracyConvergence, FindsOrderAndLimitOfAPower)
@@ -104,84 +104,84 @@ TEST(AccuracyConvergence, PrintsTheOrderItSeesAndReliesOnOneBetweenOneAndTwo)
     EXPECT_FALSE(extrapolated(one));
 }
 
-TEST(AccuracyRung, NamesReadBack)
+TEST(AccuracyModelLevel, NamesReadBack)
 {
-    const std::vector<RungResult> results = climbed();
+    const std::vector<ModelLevelResult> results = levels_run();
     ASSERT_GT(results.size(), 25u);
-    for (const RungResult& r : results) {
-        const auto back = parse_rung(rung_id(r.rung));
-        ASSERT_TRUE(back) << rung_id(r.rung);
-        EXPECT_EQ(*back, r.rung) << rung_id(r.rung);
+    for (const ModelLevelResult& r : results) {
+        const auto back = parse_model_level(model_level_id(r.model_level));
+        ASSERT_TRUE(back) << model_level_id(r.model_level);
+        EXPECT_EQ(*back, r.model_level) << model_level_id(r.model_level);
     }
     for (const char* wrong :
          {"", "rigid", "rigid:v", "fe:dt", "fe-acoustic:dt/3", "fe-acoustic:dt/-2", "fe-acoustic:h/0",
           "fe-acoustic:dt,h", "fe-acoustic:dt,alpha=0.5", "fe-acoustic:dt,modes=1"})
-        EXPECT_FALSE(parse_rung(wrong)) << wrong;
+        EXPECT_FALSE(parse_model_level(wrong)) << wrong;
 }
 
-TEST(AccuracyLadder, QuadraticElementsStandBesideLinearOnesOfTheSameStep)
+TEST(AccuracyHierarchy, QuadraticElementsStandBesideLinearOnesOfTheSameStep)
 {
-    const std::vector<RungResult> results = climbed();
+    const std::vector<ModelLevelResult> results = levels_run();
     int found = 0;
-    for (const RungResult& r : results) {
-        if (r.rung.element.empty()) continue;
+    for (const ModelLevelResult& r : results) {
+        if (r.model_level.element.empty()) continue;
         ++found;
-        EXPECT_EQ(r.rung.water, RungWater::acoustic);
-        EXPECT_FALSE(r.rung.plain());
-        Rung linear = r.rung;
+        EXPECT_EQ(r.model_level.water, ModelLevelWater::acoustic);
+        EXPECT_FALSE(r.model_level.plain());
+        ModelLevel linear = r.model_level;
         linear.element.clear();
-        EXPECT_TRUE(rung(results, rung_id(linear))) << rung_id(linear);
+        EXPECT_TRUE(model_level(results, model_level_id(linear))) << model_level_id(linear);
         linear.mesh *= 0.5;
-        EXPECT_TRUE(rung(results, rung_id(linear))) << rung_id(linear);
-        EXPECT_GT(*expected_seconds(r.rung, results), 0.0);
+        EXPECT_TRUE(model_level(results, model_level_id(linear))) << model_level_id(linear);
+        EXPECT_GT(*expected_seconds(r.model_level, results), 0.0);
     }
     EXPECT_EQ(found, 2);
 }
 
-TEST(AccuracyLadder, HasOnlyRungsThatDifferForTheScene)
+TEST(AccuracyHierarchy, HasOnlyModelLevelsThatDifferForTheScene)
 {
-    LadderFacts rigid;
-    EXPECT_EQ(ladder(rigid, {}, {}).size(), 1u); // no vertical record, no regression, no elastic dam
-    LadderFacts dry = facts_of_a_dam();
-    dry.waters = {RungWater::dry};
-    ClimbCalls calls;
+    HierarchyFacts rigid;
+    EXPECT_EQ(hierarchy(rigid, {}, {}).size(), 1u); // no vertical record, no regression, no elastic dam
+    HierarchyFacts dry = facts_of_a_dam();
+    dry.waters = {ModelLevelWater::dry};
+    HierarchyCalls calls;
     calls.run = made_up;
-    for (const RungResult& r : climb(dry, {}, calls)) EXPECT_EQ(rung_id(r.rung).find("acoustic"), std::string::npos);
+    for (const ModelLevelResult& r : run_hierarchy(dry, {}, calls)) EXPECT_EQ(model_level_id(r.model_level).find("acoustic"), std::string::npos);
 }
 
-TEST(AccuracyLadder, EndsWithTheFinestRungOfTheRichestModel)
+TEST(AccuracyHierarchy, EndsWithTheFinestModelLevelOfTheRichestModel)
 {
-    const std::vector<RungResult> results = climbed();
-    EXPECT_EQ(*top_rung(results), results.size() - 1);
-    EXPECT_EQ(results.back().rung.water, RungWater::acoustic);
-    EXPECT_LT(results.back().rung.mesh, 1.0);
-    ClimbOptions quick;
-    quick.ladder.effort = Effort::quick;
-    EXPECT_LT(climbed(quick).size(), results.size());
+    const std::vector<ModelLevelResult> results = levels_run();
+    EXPECT_EQ(*top_model_level(results), results.size() - 1);
+    EXPECT_EQ(results.back().model_level.water, ModelLevelWater::acoustic);
+    EXPECT_LT(results.back().model_level.mesh, 1.0);
+    HierarchyRunOptions quick;
+    quick.hierarchy.effort = Effort::quick;
+    EXPECT_LT(levels_run(quick).size(), results.size());
 }
 
-TEST(AccuracyLadder, HalvesStepsUntilTheSlipIsSettled)
+TEST(AccuracyHierarchy, HalvesStepsUntilTheSlipIsSettled)
 {
-    ClimbOptions options;
-    options.ladder.tolerance = 0.02;
-    const std::size_t coarse = step_row(climbed(options), RungWater::acoustic).size();
-    options.ladder.tolerance = 0.001;
-    EXPECT_GT(step_row(climbed(options), RungWater::acoustic).size(), coarse);
+    HierarchyRunOptions options;
+    options.hierarchy.tolerance = 0.02;
+    const std::size_t coarse = step_row(levels_run(options), ModelLevelWater::acoustic).size();
+    options.hierarchy.tolerance = 0.001;
+    EXPECT_GT(step_row(levels_run(options), ModelLevelWater::acoustic).size(), coarse);
 }
 
-// The true errors are known: estimates of all rungs of the model lie within a factor of two, most within 10 %.
+// The true errors are known: estimates of all model levels of the model lie within a factor of two, most within 10 %.
 TEST(AccuracyJudge, EstimatesErrorsOfStepMeshPenaltyAndModes)
 {
-    const std::vector<RungResult> results = climbed();
-    const Judgement j = judge_rungs(results, 0.02);
+    const std::vector<ModelLevelResult> results = levels_run();
+    const Judgement j = judge_model_levels(results, 0.02);
     int checked = 0;
     for (std::size_t i = 0; i < results.size(); ++i) {
-        const Rung& r = results[i].rung;
-        if (r.family != RungFamily::finite_elements) continue;
-        const double truth = std::abs(results[i].slip[0] - (r.water == RungWater::added_mass ? 0.8 : 1.0) * exact);
-        ASSERT_TRUE(j.rungs[i].error);
-        EXPECT_GT(*j.rungs[i].error, 0.5 * truth) << rung_id(r);
-        EXPECT_LT(*j.rungs[i].error, 2.0 * truth) << rung_id(r);
+        const ModelLevel& r = results[i].model_level;
+        if (r.family != ModelLevelFamily::finite_elements) continue;
+        const double truth = std::abs(results[i].slip[0] - (r.water == ModelLevelWater::added_mass ? 0.8 : 1.0) * exact);
+        ASSERT_TRUE(j.model_levels[i].error);
+        EXPECT_GT(*j.model_levels[i].error, 0.5 * truth) << model_level_id(r);
+        EXPECT_LT(*j.model_levels[i].error, 2.0 * truth) << model_level_id(r);
         ++checked;
     }
     EXPECT_GT(checked, 20);
@@ -197,9 +197,9 @@ TEST(AccuracyJudge, EstimatesErrorsOfStepMeshPenaltyAndModes)
 
 TEST(AccuracyJudge, TellsModelsApartFromDiscretisation)
 {
-    const std::vector<RungResult> results = climbed();
-    const Judgement j = judge_rungs(results, 0.02);
-    // Added mass tends to 0.8 of the acoustic slip, whatever the rung; 2 % of that for the extrapolations.
+    const std::vector<ModelLevelResult> results = levels_run();
+    const Judgement j = judge_model_levels(results, 0.02);
+    // Added mass tends to 0.8 of the acoustic slip, whatever the model level; 2 % of that for the extrapolations.
     EXPECT_NEAR(*verdict(results, j, "fe-added-mass:dt").model_difference, -0.2 * exact, 0.02 * exact);
     EXPECT_NEAR(*verdict(results, j, "fe-added-mass:dt/8").model_difference, -0.2 * exact, 0.02 * exact);
     EXPECT_EQ(*verdict(results, j, "rigid:h").error, 0.0);
@@ -209,33 +209,33 @@ TEST(AccuracyJudge, TellsModelsApartFromDiscretisation)
 
 TEST(AccuracyJudge, DeviationContainsWhatTheTopLeavesOpenAndTheWorstRecordCounts)
 {
-    std::vector<RungResult> results = climbed();
-    for (RungResult& r : results) r.slip.push_back(2.0 * r.slip[0] + (r.rung.modes ? 0.01 : 0.0));
-    const Judgement j = judge_rungs(results, 0.02);
+    std::vector<ModelLevelResult> results = levels_run();
+    for (ModelLevelResult& r : results) r.slip.push_back(2.0 * r.slip[0] + (r.model_level.modes ? 0.01 : 0.0));
+    const Judgement j = judge_model_levels(results, 0.02);
     EXPECT_EQ(j.motion, 1u); // the larger slip
     EXPECT_GT(*j.top_error, 0.0);
-    for (const RungVerdict& v : j.rungs) EXPECT_GE(*v.deviation, *j.top_error);
-    const RungResult& reduced =
-        *std::find_if(results.begin(), results.end(), [](const RungResult& r) { return r.rung.modes.has_value(); });
-    const RungResult& top = results[*j.top];
-    EXPECT_GE(*verdict(results, j, rung_id(reduced.rung)).deviation,
+    for (const ModelLevelVerdict& v : j.model_levels) EXPECT_GE(*v.deviation, *j.top_error);
+    const ModelLevelResult& reduced =
+        *std::find_if(results.begin(), results.end(), [](const ModelLevelResult& r) { return r.model_level.modes.has_value(); });
+    const ModelLevelResult& top = results[*j.top];
+    EXPECT_GE(*verdict(results, j, model_level_id(reduced.model_level)).deviation,
               std::abs(reduced.slip[1] - top.slip[1]) / top.slip[1]);
 }
 
-TEST(AccuracyJudge, NamesNoneWhereAFinerRungHasNoSlip)
+TEST(AccuracyJudge, NamesNoneWhereAFinerModelLevelHasNoSlip)
 {
-    std::vector<RungResult> results = climbed();
-    ASSERT_TRUE(judge_rungs(results, 0.1).choice);
-    results.back().outcome = RungOutcome::failed;
-    const Judgement j = judge_rungs(results, 0.1);
+    std::vector<ModelLevelResult> results = levels_run();
+    ASSERT_TRUE(judge_model_levels(results, 0.1).choice);
+    results.back().outcome = ModelLevelOutcome::failed;
+    const Judgement j = judge_model_levels(results, 0.1);
     EXPECT_FALSE(j.choice);
     EXPECT_EQ(*j.contradiction, results.size() - 1);
-    results.back().outcome = RungOutcome::skipped; // for want of seconds: the next finest is the top
-    EXPECT_TRUE(judge_rungs(results, 0.1).choice);
+    results.back().outcome = ModelLevelOutcome::skipped; // for want of seconds: the next finest is the top
+    EXPECT_TRUE(judge_model_levels(results, 0.1).choice);
 }
 
-// Over random rungs: a larger tolerance never names a slower one, and what is named is on the front or as fast.
-TEST(AccuracyJudge, LargerToleranceNeverNamesASlowerRung)
+// Over random model levels: a larger tolerance never names a slower one, and what is named is on the front or as fast.
+TEST(AccuracyJudge, LargerToleranceNeverNamesASlowerModelLevel)
 {
     std::mt19937 random(11);
     const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };
@@ -265,64 +265,64 @@ TEST(AccuracyJudge, LargerToleranceNeverNamesASlowerRung)
     }
 }
 
-TEST(AccuracyClimb, ListsWhatExceedsTheBudgetAndKeepsWhatFailed)
+TEST(AccuracyRuns, ListsWhatExceedsTheBudgetAndKeepsWhatFailed)
 {
-    ClimbOptions options;
-    options.budget = 2.0; // made-up rungs take no time, but say what they would
-    const std::vector<RungResult> results = climbed(options);
+    HierarchyRunOptions options;
+    options.budget = 2.0; // made-up model levels take no time, but say what they would
+    const std::vector<ModelLevelResult> results = levels_run(options);
     const auto skipped = std::count_if(results.begin(), results.end(),
-                                       [](const RungResult& r) { return r.outcome == RungOutcome::skipped; });
+                                       [](const ModelLevelResult& r) { return r.outcome == ModelLevelOutcome::skipped; });
     EXPECT_GT(skipped, 0);
-    for (const RungResult& r : results)
-        EXPECT_TRUE(r.outcome != RungOutcome::skipped || r.seconds >= 1.5) << rung_id(r.rung);
-    ClimbCalls failing;
-    failing.run = [](const Rung& rung) {
-        RungResult r = made_up(rung);
-        if (rung.water == RungWater::acoustic && rung.family == RungFamily::finite_elements) {
-            r.outcome = RungOutcome::refused;
+    for (const ModelLevelResult& r : results)
+        EXPECT_TRUE(r.outcome != ModelLevelOutcome::skipped || r.seconds >= 1.5) << model_level_id(r.model_level);
+    HierarchyCalls failing;
+    failing.run = [](const ModelLevel& model_level) {
+        ModelLevelResult r = made_up(model_level);
+        if (model_level.water == ModelLevelWater::acoustic && model_level.family == ModelLevelFamily::finite_elements) {
+            r.outcome = ModelLevelOutcome::refused;
             r.slip.clear();
         }
         return r;
     };
-    const std::vector<RungResult> poor = climb(facts_of_a_dam(), {}, failing);
-    EXPECT_EQ(poor[*top_rung(poor)].rung.water, RungWater::added_mass);
-    EXPECT_TRUE(rung(poor, "fe-acoustic:dt"));
+    const std::vector<ModelLevelResult> poor = run_hierarchy(facts_of_a_dam(), {}, failing);
+    EXPECT_EQ(poor[*top_model_level(poor)].model_level.water, ModelLevelWater::added_mass);
+    EXPECT_TRUE(model_level(poor, "fe-acoustic:dt"));
 }
 
-TEST(AccuracyClimb, AnInterruptKeepsWhatIsFinishedAndDropsTheRungUnderWay)
+TEST(AccuracyRuns, AnInterruptKeepsWhatIsFinishedAndDropsTheModelLevelUnderWay)
 {
     int runs = 0;
-    ClimbCalls calls;
-    calls.run = [&](const Rung& rung) {
-        RungResult r = made_up(rung);
-        if (++runs == 20) r.outcome = RungOutcome::stopped;
+    HierarchyCalls calls;
+    calls.run = [&](const ModelLevel& model_level) {
+        ModelLevelResult r = made_up(model_level);
+        if (++runs == 20) r.outcome = ModelLevelOutcome::stopped;
         return r;
     };
     std::size_t told = 0;
-    calls.ends = [&](const std::vector<RungResult>& results) { told = results.size(); };
-    ClimbOptions once;
+    calls.ends = [&](const std::vector<ModelLevelResult>& results) { told = results.size(); };
+    HierarchyRunOptions once;
     once.repeats = 1;
-    const std::vector<RungResult> results = climb(facts_of_a_dam(), once, calls);
+    const std::vector<ModelLevelResult> results = run_hierarchy(facts_of_a_dam(), once, calls);
     EXPECT_EQ(results.size(), 19u);
     EXPECT_EQ(told, 19u);
-    EXPECT_TRUE(std::all_of(results.begin(), results.end(), [](const RungResult& r) { return r.done(); }));
+    EXPECT_TRUE(std::all_of(results.begin(), results.end(), [](const ModelLevelResult& r) { return r.done(); }));
 }
 
-TEST(AccuracyClimb, RepeatsShortRungsForTheMedian)
+TEST(AccuracyRuns, RepeatsShortModelLevelsForTheMedian)
 {
     std::vector<double> seconds{0.9, 0.2, 0.4};
     std::size_t next = 0;
-    ClimbCalls calls;
-    calls.run = [&](const Rung& rung) {
-        RungResult r = made_up(rung);
+    HierarchyCalls calls;
+    calls.run = [&](const ModelLevel& model_level) {
+        ModelLevelResult r = made_up(model_level);
         r.seconds = seconds[next++ % seconds.size()];
         return r;
     };
-    const RungResult r = run_repeatedly(Rung{}, 3, calls);
+    const ModelLevelResult r = run_repeatedly(ModelLevel{}, 3, calls);
     EXPECT_EQ(r.repeats, 3);
     EXPECT_DOUBLE_EQ(r.seconds, 0.4);
     seconds = {2.0};
-    EXPECT_EQ(run_repeatedly(Rung{}, 3, calls).repeats, 1);
+    EXPECT_EQ(run_repeatedly(ModelLevel{}, 3, calls).repeats, 1);
 }
 
 } // namespace

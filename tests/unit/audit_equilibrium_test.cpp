@@ -257,10 +257,10 @@ TEST(Audit, A6_every_command_says_that_it_rocks_first)
     const ProgramAnswer rocking = strong.run("sweep", bonded, {"--method", "rocking", "--polarity", "1"});
     EXPECT_EQ(rocking.code, 0) << rocking.talk;
     EXPECT_FALSE(has(rocking.out, "rocks first"));
-    const ProgramAnswer rungs = strong.run("accuracy", bonded);
-    EXPECT_TRUE(has(rungs.out, "rigid:h+v,rocking")) << rungs.out << rungs.talk;
-    EXPECT_TRUE(has(rungs.out, "rocks first"));
-    const ProgramAnswer below = Folder(2.0).run("accuracy", bonded); // nothing rocks: no such rung
+    const ProgramAnswer model_levels = strong.run("accuracy", bonded);
+    EXPECT_TRUE(has(model_levels.out, "rigid:h+v,rocking")) << model_levels.out << model_levels.talk;
+    EXPECT_TRUE(has(model_levels.out, "rocks first"));
+    const ProgramAnswer below = Folder(2.0).run("accuracy", bonded); // nothing rocks: no such model level
     EXPECT_FALSE(has(below.out, "rocking")) << below.out;
 }
 

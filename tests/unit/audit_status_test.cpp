@@ -1,5 +1,5 @@
 // One list of statuses in all commands: what is printed, whether there is a slip, which exit code follows.
-#include "analysis/accuracy/rung_runner.hpp"
+#include "analysis/accuracy/model_level_runner.hpp"
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/reducible.hpp"
 #include "analysis/screen/screening.hpp"
@@ -193,15 +193,15 @@ void expect_status(const Shown& shown, const std::string& scene, Status status)
         << shown.name << ": " << word(status) << " with " << row[shown.slip];
 }
 
-/// One rung alone. A rung has a slip only when it came to rest.
-void expect_rung(const std::string& rung, const std::string& scene, Status status)
+/// One model level alone. A model level has a slip only when it came to rest.
+void expect_model_level(const std::string& model_level, const std::string& scene, Status status)
 {
-    const ProgramAnswer answer = answer_of({"accuracy", scene, "--rung", rung, "--json"});
-    EXPECT_EQ(answer.code, status_row(status).exit_code) << rung << ": " << word(status) << "\n" << answer.talk;
+    const ProgramAnswer answer = answer_of({"accuracy", scene, "--rung", model_level, "--json"});
+    EXPECT_EQ(answer.code, status_row(status).exit_code) << model_level << ": " << word(status) << "\n" << answer.talk;
     const json j = json::parse(answer.out, nullptr, false);
     ASSERT_FALSE(j.is_discarded()) << answer.talk;
-    EXPECT_EQ(j.value("status", ""), word(status)) << rung;
-    EXPECT_EQ(j["runs"].empty(), status != Status::at_rest) << rung;
+    EXPECT_EQ(j.value("status", ""), word(status)) << model_level;
+    EXPECT_EQ(j["runs"].empty(), status != Status::at_rest) << model_level;
 }
 
 TEST(Audit, Statuses_each_command_at_rest)
@@ -210,7 +210,7 @@ TEST(Audit, Statuses_each_command_at_rest)
     const std::string scene = files.block({});
     for (const Shown& shown : {screened, swept, swept_fe, ablated, ablated_fe})
         expect_status(shown, scene, Status::at_rest);
-    for (const char* rung : {"rigid:h", "fe-dry:dt"}) expect_rung(rung, scene, Status::at_rest);
+    for (const char* model_level : {"rigid:h", "fe-dry:dt"}) expect_model_level(model_level, scene, Status::at_rest);
     EXPECT_EQ(answer_of({"fe", scene, "--json"}).code, exit_ok);
 }
 
@@ -224,7 +224,7 @@ TEST(Audit, Statuses_each_command_sliding_at_end)
     const std::string scene = files.block(b);
     for (const Shown& shown : {screened, swept, swept_fe, ablated, ablated_fe})
         expect_status(shown, scene, Status::sliding_at_end);
-    for (const char* rung : {"rigid:h", "fe-dry:dt"}) expect_rung(rung, scene, Status::sliding_at_end);
+    for (const char* model_level : {"rigid:h", "fe-dry:dt"}) expect_model_level(model_level, scene, Status::sliding_at_end);
 }
 
 TEST(Audit, Statuses_each_command_static_failure)
@@ -236,7 +236,7 @@ TEST(Audit, Statuses_each_command_static_failure)
     const std::string scene = files.block(b);
     for (const Shown& shown : {screened, swept, swept_fe, ablated, ablated_fe})
         expect_status(shown, scene, Status::static_failure);
-    for (const char* rung : {"rigid:h", "fe-dry:dt"}) expect_rung(rung, scene, Status::static_failure);
+    for (const char* model_level : {"rigid:h", "fe-dry:dt"}) expect_model_level(model_level, scene, Status::static_failure);
     const json screened_rows = rows_of(answer_of({"screen", scene, "--json"}), {"displacements"});
     EXPECT_EQ(screened_rows[0]["verdict"], "FAIL");
     EXPECT_TRUE(screened_rows[0]["upstream_slip_mm"].is_null());
@@ -255,7 +255,7 @@ TEST(Audit, Statuses_each_command_floats)
              "\"linear\"\n";
     const std::string scene = files.block(b);
     for (const Shown& shown : {screened, swept, swept_fe}) expect_status(shown, scene, Status::floats);
-    for (const char* rung : {"rigid:h", "fe-hydrostatic:dt"}) expect_rung(rung, scene, Status::floats);
+    for (const char* model_level : {"rigid:h", "fe-hydrostatic:dt"}) expect_model_level(model_level, scene, Status::floats);
 }
 
 TEST(Audit, Statuses_each_command_overturns)
@@ -267,7 +267,7 @@ TEST(Audit, Statuses_each_command_overturns)
     b.more = "[reservoir]\nlevel_m = 5.5\nmodel = \"hydrostatic\"\n[uplift]\nmodel = \"none\"\n";
     const std::string scene = files.block(b);
     expect_status(swept_fe, scene, Status::overturns);
-    expect_rung("fe-hydrostatic:dt", scene, Status::overturns);
+    expect_model_level("fe-hydrostatic:dt", scene, Status::overturns);
 }
 
 TEST(Audit, Statuses_each_command_tolerance_missed)
@@ -278,7 +278,7 @@ TEST(Audit, Statuses_each_command_tolerance_missed)
     b.time = "slip_tolerance = 1e-12\n";
     const std::string scene = files.block(b);
     expect_status(swept_fe, scene, Status::tolerance_missed);
-    expect_rung("fe-dry:dt=auto", scene, Status::tolerance_missed);
+    expect_model_level("fe-dry:dt=auto", scene, Status::tolerance_missed);
     const ProgramAnswer answer = answer_of({"sweep", scene, "--method", "fe", "--polarity", "1", "--json"});
     EXPECT_NE(answer.talk.find("1 row has no answer: 1 tolerance missed (row 0)"), std::string::npos) << answer.talk;
     const ProgramAnswer ablation = answer_of(with_scene(ablated_fe.arguments, scene));
@@ -384,33 +384,33 @@ TEST(Audit, B3_a_solver_without_an_answer_is_not_refused_by_accuracy)
 {
     const Scenes files;
     const std::string scene = files.unsolvable_dam();
-    expect_rung("fe-added-mass:dt", scene, Status::not_resolved);
+    expect_model_level("fe-added-mass:dt", scene, Status::not_resolved);
     const ProgramAnswer answer = answer_of({"accuracy", scene, "--quick", "--repeats", "1", "--budget", "4", "--json"});
     EXPECT_EQ(answer.code, exit_no_answer);
     const json j = json::parse(answer.out);
     EXPECT_TRUE(j["choice"].is_null());
     bool seen = false;
-    for (const json& rung : j["rungs"]) {
-        const std::string id = rung["rung"];
-        if (id.rfind("fe-", 0) != 0 || rung["status"].is_null()) continue; // null: skipped for want of seconds
-        EXPECT_EQ(rung["status"], "not resolved") << id;
-        EXPECT_TRUE(rung["slip_mm"].is_null()) << id;
+    for (const json& model_level : j["rungs"]) {
+        const std::string id = model_level["rung"];
+        if (id.rfind("fe-", 0) != 0 || model_level["status"].is_null()) continue; // null: skipped for want of seconds
+        EXPECT_EQ(model_level["status"], "not resolved") << id;
+        EXPECT_TRUE(model_level["slip_mm"].is_null()) << id;
         seen = true;
     }
     EXPECT_TRUE(seen);
     EXPECT_EQ(answer.out.find("refused"), std::string::npos);
 }
 
-TEST(Audit, B3_a_seepage_that_is_not_solved_is_a_rung_without_an_answer)
+TEST(Audit, B3_a_seepage_that_is_not_solved_is_a_model_level_without_an_answer)
 {
     Scene scene = read_scene(std::filesystem::path(source_dir()) / "examples/reference_dam.toml");
     scene.motion.records.resize(1);
     const Records records = load_records(scene, Method::rigid_block);
     const Watch nobody;
     scene.foundation->permeability = std::nan(""); // no solver finds an answer
-    const RungRunner runner(scene, records, 0.0, nobody);
-    const RungResult r = runner.run(parse_rung("rigid:h").value());
-    EXPECT_EQ(r.outcome, RungOutcome::failed);
+    const ModelLevelRunner runner(scene, records, 0.0, nobody);
+    const ModelLevelResult r = runner.run(parse_model_level("rigid:h").value());
+    EXPECT_EQ(r.outcome, ModelLevelOutcome::failed);
     EXPECT_EQ(r.status, Status::not_resolved);
     EXPECT_NE(r.remark.find("seepage"), std::string::npos) << r.remark;
 }
@@ -428,7 +428,7 @@ TEST(Audit, B3_whether_a_scene_can_be_reduced_is_asked_without_a_throw)
     EXPECT_THROW(check_reducible(scene), InputError);
 }
 
-TEST(Audit, B3_static_failure_by_all_rungs_is_an_answer)
+TEST(Audit, B3_static_failure_by_all_model_levels_is_an_answer)
 {
     const Scenes files;
     BlockText b;
@@ -440,7 +440,7 @@ TEST(Audit, B3_static_failure_by_all_rungs_is_an_answer)
     EXPECT_TRUE(j["choice"].is_null());
     EXPECT_TRUE(j["top"].is_null());
     ASSERT_FALSE(j["rungs"].empty());
-    for (const json& rung : j["rungs"]) EXPECT_EQ(rung["status"], "static failure");
+    for (const json& model_level : j["rungs"]) EXPECT_EQ(model_level["status"], "static failure");
 }
 
 // ---- B4
@@ -457,7 +457,7 @@ TEST(Audit, B4_the_dams_period_without_a_reservoir_is_not_asked_for)
     expect_status(swept_fe, scene, Status::at_rest);
     const ProgramAnswer reduced = answer_of({"sweep", scene, "--method", "fe-reduced", "--json"});
     EXPECT_EQ(reduced.code, exit_ok) << reduced.talk;
-    expect_rung("fe-dry:dt", scene, Status::at_rest);
+    expect_model_level("fe-dry:dt", scene, Status::at_rest);
     for (const char* model : {"hydrostatic", "acoustic"}) {
         b.more = fmt::format("[added_mass]\nperiod_s = \"dam\"\n[reservoir]\nlevel_m = 1\nlength_m = 20\nmodel = "
                              "\"{}\"\n[uplift]\nmodel = \"linear\"\n",
@@ -484,7 +484,7 @@ TEST(Audit, B5_a_slip_beyond_the_base_is_no_slip)
     b.more = "[criteria]\nallowable_slip_mm = 100\n";
     std::string scene = files.block(b);
     for (const Shown& shown : {screened, swept, ablated}) expect_status(shown, scene, Status::runs_away);
-    expect_rung("rigid:h", scene, Status::runs_away);
+    expect_model_level("rigid:h", scene, Status::runs_away);
     EXPECT_EQ(rows_of(answer_of({"screen", scene, "--json"}), {"displacements"})[0]["verdict"], "FAIL");
 
     // The same slip on a longer base is one: its slip per area does not depend on the length.

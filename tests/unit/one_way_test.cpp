@@ -1,6 +1,6 @@
-// From a scene to its slip there is one way: `fe`, a sweep of one row, the library and a rung of `accuracy` give the same
-// bits; so do `screen`, a sweep of one row, the library and a rung for the rigid block.
-#include "analysis/accuracy/rung_runner.hpp"
+// From a scene to its slip there is one way: `fe`, a sweep of one row, the library and a model level of `accuracy` give the same
+// bits; so do `screen`, a sweep of one row, the library and a model level for the rigid block.
+#include "analysis/accuracy/model_level_runner.hpp"
 #include "analysis/fe/contact_runs.hpp"
 #include "analysis/screen/screening.hpp"
 #include "analysis/sweep/sweep_run.hpp"
@@ -21,7 +21,7 @@ struct OneScene {
     const char* name;
     const char* water;  ///< of [reservoir]; empty: no reservoir
     const char* tables; ///< the rest
-    const char* rung;   ///< how `accuracy` names it
+    const char* model_level;   ///< how `accuracy` names it
 };
 
 void PrintTo(const OneScene& scene, std::ostream* out)
@@ -71,11 +71,11 @@ protected:
         EXPECT_EQ(answer.code, 0) << answer.out << answer.talk;
         return nlohmann::json::parse(answer.out);
     }
-    RungResult rung(const std::string& id) const
+    ModelLevelResult model_level(const std::string& id) const
     {
         const Watch nobody;
         const Scene scene = read_scene(file);
-        return RungRunner(scene, load_records(scene, Method::finite_elements), 0.0, nobody).run(parse_rung(id).value());
+        return ModelLevelRunner(scene, load_records(scene, Method::finite_elements), 0.0, nobody).run(parse_model_level(id).value());
     }
     FinishedRow only_row(const std::string& method) const
     {
@@ -103,9 +103,9 @@ TEST_P(OneWay, FiniteElementsGiveTheSameBits)
     EXPECT_EQ(answer({"fe", "--no-mesh-error"})["runs"][0]["slip_mm"], 1e3 * slip);
     EXPECT_EQ(answer({"sweep", "--method", "fe"})["rows"][0]["slip_m"], slip);
     EXPECT_EQ(only_row("fe").results.slip, slip);
-    const RungResult rung = this->rung(GetParam().rung);
-    ASSERT_TRUE(rung.done()) << rung.remark;
-    EXPECT_EQ(rung.slip.at(0), slip);
+    const ModelLevelResult model_level = this->model_level(GetParam().model_level);
+    ASSERT_TRUE(model_level.done()) << model_level.remark;
+    EXPECT_EQ(model_level.slip.at(0), slip);
 }
 
 TEST_P(OneWay, TheRigidBlockGivesTheSameBits)
@@ -118,9 +118,9 @@ TEST_P(OneWay, TheRigidBlockGivesTheSameBits)
     ASSERT_GT(slip, 1e-5);
     EXPECT_EQ(answer({"screen"})["displacements"][0]["slip_hv_mm"], 1e3 * slip);
     EXPECT_EQ(answer({"sweep", "--method", "rigid-v"})["rows"][0]["slip_m"], slip);
-    const RungResult rung = this->rung("rigid:h+v");
-    ASSERT_TRUE(rung.done()) << rung.remark;
-    EXPECT_EQ(rung.slip.at(0), slip);
+    const ModelLevelResult model_level = this->model_level("rigid:h+v");
+    ASSERT_TRUE(model_level.done()) << model_level.remark;
+    EXPECT_EQ(model_level.slip.at(0), slip);
 }
 
 INSTANTIATE_TEST_SUITE_P(SixScenes, OneWay, testing::ValuesIn(scenes),

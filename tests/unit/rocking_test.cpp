@@ -1,4 +1,4 @@
-#include "analysis/accuracy/rung.hpp"
+#include "analysis/accuracy/model_level.hpp"
 #include "analysis/sweep/sweep_axes.hpp"
 #include "core/input_error.hpp"
 #include "program_answer.hpp"
@@ -366,13 +366,13 @@ TEST(Rocking, AJointThatDriesEndsWithoutEndlessLandings)
     }
 }
 
-TEST(Rocking, IsAMethodOfSweepsAndARungOfTheLadder)
+TEST(Rocking, IsAMethodOfSweepsAndAModelLevel)
 {
     EXPECT_EQ(sweep_method("rocking").kind, SweepKind::rocking);
-    const auto rung = parse_rung("rigid:h+v,rocking");
-    ASSERT_TRUE(rung);
-    EXPECT_EQ(rung_id(*rung), "rigid:h+v,rocking");
-    EXPECT_EQ(model_of(*rung), "rigid:h+v,rocking");
+    const auto model_level = parse_model_level("rigid:h+v,rocking");
+    ASSERT_TRUE(model_level);
+    EXPECT_EQ(model_level_id(*model_level), "rigid:h+v,rocking");
+    EXPECT_EQ(model_of(*model_level), "rigid:h+v,rocking");
 }
 
 TEST(Rocking, RefusesARestitutionAboveOne)

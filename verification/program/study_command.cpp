@@ -103,7 +103,7 @@ int study(const StudyArguments& arguments, const Streams& streams)
     const std::vector<Finding> findings = study_findings({scene, rows, uplifts, modes, regressions, pga});
 
     std::vector<SettingsStep> settings;
-    if (axes.finite_elements()) settings = settings_ladder(scene, records, arguments.jobs, watch);
+    if (axes.finite_elements()) settings = settings_steps(scene, records, arguments.jobs, watch);
 
     // 4. files
     write_file(sweep.out, csv(table, csv_comments(identity)));

@@ -1,6 +1,6 @@
 #include "analysis/accuracy/accuracy.hpp"
 
-#include "analysis/accuracy/ladder.hpp"
+#include "analysis/accuracy/hierarchy.hpp"
 #include "analysis/fe/mesh_error.hpp"
 #include "core/watch.hpp"
 #include "scene/joint_bond.hpp"
@@ -16,14 +16,14 @@ Accuracy measure_accuracy(const Scene& scene, double tolerance, Effort effort, c
 {
     const ProcessorClock clock(ProcessorTimeOf::process);
     Records records = load_records(scene, Method::finite_elements);
-    const RungRunner runner(scene, std::move(records), clock.seconds(), watch);
-    ClimbOptions options;
-    options.ladder = {effort, tolerance};
-    ClimbCalls calls;
-    calls.run = [&](const Rung& rung) { return runner.run(rung); };
+    const ModelLevelRunner runner(scene, std::move(records), clock.seconds(), watch);
+    HierarchyRunOptions options;
+    options.hierarchy = {effort, tolerance};
+    HierarchyCalls calls;
+    calls.run = [&](const ModelLevel& model_level) { return runner.run(model_level); };
     calls.interrupted = watch.stop();
-    Accuracy accuracy{climb(runner.facts(), options, calls), {}};
-    accuracy.judgement = judge_rungs(accuracy.rungs, tolerance);
+    Accuracy accuracy{run_hierarchy(runner.facts(), options, calls), {}};
+    accuracy.judgement = judge_model_levels(accuracy.model_levels, tolerance);
     return accuracy;
 }
 
@@ -36,59 +36,59 @@ void set_element(std::string_view word, Scene& scene)
     if (word == "t6") scene.mesh.element = ElementKind::t6;
 }
 
-void set_water(RungWater water, Scene& scene)
+void set_water(ModelLevelWater water, Scene& scene)
 {
     if (!scene.reservoir) return;
     switch (water) {
-    case RungWater::dry:
+    case ModelLevelWater::dry:
         break;
-    case RungWater::hydrostatic:
+    case ModelLevelWater::hydrostatic:
         scene.reservoir->model = ReservoirModel::hydrostatic;
         break;
-    case RungWater::added_mass:
+    case ModelLevelWater::added_mass:
         scene.reservoir->model = ReservoirModel::added_mass;
         break;
-    case RungWater::acoustic:
+    case ModelLevelWater::acoustic:
         scene.reservoir->model = ReservoirModel::acoustic;
         break;
     }
 }
 
-void set_rock(const Rung& rung, Scene& scene)
+void set_rock(const ModelLevel& model_level, Scene& scene)
 {
     if (!scene.foundation) return;
-    if (rung.rock == RungRock::massless) scene = with_massless_rock(scene);
-    if (rung.rock == RungRock::radiating) scene = with_radiating_rock(scene);
-    scene.foundation->wave_box *= rung.wave_box;
+    if (model_level.rock == ModelLevelRock::massless) scene = with_massless_rock(scene);
+    if (model_level.rock == ModelLevelRock::radiating) scene = with_radiating_rock(scene);
+    scene.foundation->wave_box *= model_level.wave_box;
 }
 
 } // namespace
 
-Scene scene_of(const Scene& given, const Rung& rung)
+Scene scene_of(const Scene& given, const ModelLevel& model_level)
 {
     Scene scene = given;
-    if (rung.family == RungFamily::regression) return scene;
-    if (rung.family == RungFamily::rigid) {
-        scene.sliding.scheme = rung.scheme == RigidScheme::slammer ? SlidingScheme::slammer : SlidingScheme::exact;
-        if (rung.components == Components::horizontal) scene.motion.vertical = false;
+    if (model_level.family == ModelLevelFamily::regression) return scene;
+    if (model_level.family == ModelLevelFamily::rigid) {
+        scene.sliding.scheme = model_level.scheme == RigidScheme::slammer ? SlidingScheme::slammer : SlidingScheme::exact;
+        if (model_level.components == Components::horizontal) scene.motion.vertical = false;
         return scene;
     }
-    set_water(rung.water, scene);
-    if (rung.step == StepChoice::as_the_scene) return scene;
+    set_water(model_level.water, scene);
+    if (model_level.step == StepChoice::as_the_scene) return scene;
     scene = with_exact_contact(scene).value_or(scene);
     scene.time.substeps.reset();
-    scene.time.stepping = rung.step == StepChoice::adaptive ? Stepping::adaptive : Stepping::uniform;
-    if (rung.step == StepChoice::fixed) scene.time.substeps = rung.halvings;
-    if (rung.mesh != 1.0) scale_mesh(rung.mesh, scene);
-    set_element(rung.element, scene);
-    if (rung.tangential_stiffness) {
+    scene.time.stepping = model_level.step == StepChoice::adaptive ? Stepping::adaptive : Stepping::uniform;
+    if (model_level.step == StepChoice::fixed) scene.time.substeps = model_level.halvings;
+    if (model_level.mesh != 1.0) scale_mesh(model_level.mesh, scene);
+    set_element(model_level.element, scene);
+    if (model_level.tangential_stiffness) {
         scene.contact.enforcement = ContactEnforcement::penalty;
-        scene.contact.tangential_stiffness = rung.tangential_stiffness;
+        scene.contact.tangential_stiffness = model_level.tangential_stiffness;
     }
-    set_rock(rung, scene);
-    if (rung.alpha) {
+    set_rock(model_level, scene);
+    if (model_level.alpha) {
         scene.time.scheme = TimeScheme::hht;
-        scene.time.alpha = *rung.alpha;
+        scene.time.alpha = *model_level.alpha;
     }
     return scene;
 }
@@ -97,20 +97,20 @@ namespace {
 
 /// The finest row and the column of meshes, which cross.
 struct Cross {
-    std::vector<const RungResult*> row, column;
-    const RungResult* corner = nullptr; ///< of the column, on the row's mesh; null: there is no column
+    std::vector<const ModelLevelResult*> row, column;
+    const ModelLevelResult* corner = nullptr; ///< of the column, on the row's mesh; null: there is no column
 
-    Cross(const std::vector<RungResult>& results, RungWater water)
+    Cross(const std::vector<ModelLevelResult>& results, ModelLevelWater water)
         : row(fine_row(results, water)), column(mesh_column(results, water))
     {
         if (column.size() < 2 || row.empty()) return;
-        for (const RungResult* r : column)
-            if (r->rung.mesh == row.front()->rung.mesh) corner = r;
+        for (const ModelLevelResult* r : column)
+            if (r->model_level.mesh == row.front()->model_level.mesh) corner = r;
     }
 };
 
 /// The step's limit on the finest mesh that has a row, plus what the mesh still changes at the column's step.
-std::optional<ModelLimit> limit_of(const std::vector<RungResult>& results, RungWater water, std::size_t motions)
+std::optional<ModelLimit> limit_of(const std::vector<ModelLevelResult>& results, ModelLevelWater water, std::size_t motions)
 {
     const Cross cross(results, water);
     ModelLimit limit;
@@ -118,7 +118,7 @@ std::optional<ModelLimit> limit_of(const std::vector<RungResult>& results, RungW
         const auto order = observed_order(slips_of(step_row(results, water), motion));
         const auto step = extrapolated(slips_of(cross.row, motion), 2.0, order);
         if (!step) return std::nullopt;
-        limit.model = model_of(cross.row.front()->rung);
+        limit.model = model_of(cross.row.front()->model_level);
         limit.slip.push_back(step->value);
         limit.open.push_back(0.5 * std::abs(step->correction));
         if (!cross.corner) continue;
@@ -130,20 +130,20 @@ std::optional<ModelLimit> limit_of(const std::vector<RungResult>& results, RungW
     return limit;
 }
 
-/// Errors against the plain rung with the same step, in the order of `size`, which falls.
+/// Errors against the plain model level with the same step, in the order of `size`, which falls.
 template <class Size>
-std::optional<double> order_of_variants(const std::vector<RungResult>& results, RungWater water, std::size_t motion,
+std::optional<double> order_of_variants(const std::vector<ModelLevelResult>& results, ModelLevelWater water, std::size_t motion,
                                         double ratio, Size&& size)
 {
     std::vector<std::pair<double, double>> errors; // size, slip - exact
-    for (const RungResult& r : results) {
-        if (!r.done() || r.rung.family != RungFamily::finite_elements || r.rung.water != water || !size(r.rung))
+    for (const ModelLevelResult& r : results) {
+        if (!r.done() || r.model_level.family != ModelLevelFamily::finite_elements || r.model_level.water != water || !size(r.model_level))
             continue;
-        Rung plain = r.rung;
+        ModelLevel plain = r.model_level;
         plain.modes.reset();
         plain.tangential_stiffness.reset();
-        for (const RungResult& p : results)
-            if (p.done() && p.rung == plain) errors.emplace_back(*size(r.rung), r.slip[motion] - p.slip[motion]);
+        for (const ModelLevelResult& p : results)
+            if (p.done() && p.model_level == plain) errors.emplace_back(*size(r.model_level), r.slip[motion] - p.slip[motion]);
     }
     std::sort(errors.begin(), errors.end());
     std::vector<double> falling;
@@ -155,37 +155,37 @@ std::optional<double> order_of_variants(const std::vector<RungResult>& results, 
     return order_of_errors(falling, ratio);
 }
 
-void add_orders(const std::vector<RungResult>& results, RungWater water, std::size_t motion, ModelLimit& limit)
+void add_orders(const std::vector<ModelLevelResult>& results, ModelLevelWater water, std::size_t motion, ModelLimit& limit)
 {
     const Cross cross(results, water);
     const auto row = cross.row.size() > 2 ? cross.row : step_row(results, water);
     limit.order_step = observed_order(slips_of(row, motion));
     if (cross.corner) limit.order_mesh = observed_order(slips_of(cross.column, motion));
     limit.order_penalty =
-        order_of_variants(results, water, motion, 10.0, [](const Rung& r) { return r.tangential_stiffness; });
-    limit.order_modes = order_of_variants(results, water, motion, 2.0, [](const Rung& r) {
+        order_of_variants(results, water, motion, 10.0, [](const ModelLevel& r) { return r.tangential_stiffness; });
+    limit.order_modes = order_of_variants(results, water, motion, 2.0, [](const ModelLevel& r) {
         return r.modes ? std::optional<double>(*r.modes) : std::nullopt;
     });
 }
 
-const ModelLimit* find(const std::vector<ModelLimit>& models, const Rung& rung)
+const ModelLimit* find(const std::vector<ModelLimit>& models, const ModelLevel& model_level)
 {
-    const std::string model = model_of(rung);
+    const std::string model = model_of(model_level);
     const auto at = std::find_if(models.begin(), models.end(), [&](const ModelLimit& m) { return m.model == model; });
     return at == models.end() ? nullptr : &*at;
 }
 
 /// Estimate for one motion; nothing where the model has no limit.
-std::optional<double> error_of(const RungResult& r, const ModelLimit* limit, std::size_t motion)
+std::optional<double> error_of(const ModelLevelResult& r, const ModelLimit* limit, std::size_t motion)
 {
-    if (r.rung.family == RungFamily::rigid && r.rung.scheme != RigidScheme::slammer)
+    if (r.model_level.family == ModelLevelFamily::rigid && r.model_level.scheme != RigidScheme::slammer)
         return 0.0; // events located exactly
     if (!limit) return std::nullopt;
     return std::max(std::abs(r.slip[motion] - limit->slip[motion]), limit->open[motion]);
 }
 
-void judge_rung(const RungResult& r, const RungResult& top, const ModelLimit* limit, const ModelLimit* top_limit,
-                std::size_t shown, RungVerdict& verdict)
+void judge_model_level(const ModelLevelResult& r, const ModelLevelResult& top, const ModelLimit* limit, const ModelLimit* top_limit,
+                std::size_t shown, ModelLevelVerdict& verdict)
 {
     verdict.error = error_of(r, limit, shown);
     const double own = limit ? limit->slip[shown] : r.slip[shown];
@@ -202,12 +202,12 @@ void judge_rung(const RungResult& r, const RungResult& top, const ModelLimit* li
 }
 
 /// The exact scheme's slip is the limit of SLAMMER's.
-void add_rigid_limits(const std::vector<RungResult>& results, std::vector<ModelLimit>& models)
+void add_rigid_limits(const std::vector<ModelLevelResult>& results, std::vector<ModelLimit>& models)
 {
-    for (const RungResult& r : results)
-        if (r.done() && r.rung.family == RungFamily::rigid && r.rung.scheme != RigidScheme::slammer) {
+    for (const ModelLevelResult& r : results)
+        if (r.done() && r.model_level.family == ModelLevelFamily::rigid && r.model_level.scheme != RigidScheme::slammer) {
             ModelLimit limit;
-            limit.model = model_of(r.rung);
+            limit.model = model_of(r.model_level);
             limit.slip = r.slip;
             limit.open.assign(r.slip.size(), 0.0);
             models.push_back(std::move(limit));
@@ -216,37 +216,37 @@ void add_rigid_limits(const std::vector<RungResult>& results, std::vector<ModelL
 
 } // namespace
 
-Judgement judge_rungs(const std::vector<RungResult>& results, double tolerance)
+Judgement judge_model_levels(const std::vector<ModelLevelResult>& results, double tolerance)
 {
     Judgement j;
-    j.rungs.resize(results.size());
-    j.top = top_rung(results);
+    j.model_levels.resize(results.size());
+    j.top = top_model_level(results);
     if (!j.top) return j;
-    const RungResult& top = results[*j.top];
+    const ModelLevelResult& top = results[*j.top];
     for (std::size_t motion = 0; motion < top.slip.size(); ++motion)
         if (std::abs(top.slip[motion]) > std::abs(top.slip[j.motion])) j.motion = motion;
     add_rigid_limits(results, j.models);
-    for (const RungWater water : {RungWater::dry, RungWater::hydrostatic, RungWater::added_mass, RungWater::acoustic})
+    for (const ModelLevelWater water : {ModelLevelWater::dry, ModelLevelWater::hydrostatic, ModelLevelWater::added_mass, ModelLevelWater::acoustic})
         if (auto limit = limit_of(results, water, top.slip.size())) {
             add_orders(results, water, j.motion, *limit);
             j.models.push_back(std::move(*limit));
         }
-    const ModelLimit* top_limit = find(j.models, top.rung);
+    const ModelLimit* top_limit = find(j.models, top.model_level);
     std::vector<double> seconds;
     std::vector<std::optional<double>> deviation;
     for (std::size_t i = 0; i < results.size(); ++i) {
         if (results[i].done())
-            judge_rung(results[i], top, find(j.models, results[i].rung), top_limit, j.motion, j.rungs[i]);
+            judge_model_level(results[i], top, find(j.models, results[i].model_level), top_limit, j.motion, j.model_levels[i]);
         seconds.push_back(results[i].seconds);
-        deviation.push_back(j.rungs[i].deviation);
+        deviation.push_back(j.model_levels[i].deviation);
     }
-    j.top_error = j.rungs[*j.top].deviation;
+    j.top_error = j.model_levels[*j.top].deviation;
     for (std::size_t i = 0; i < results.size(); ++i)
-        if (results[i].outcome == RungOutcome::failed && results[i].rung.plain() && below(top.rung, results[i].rung))
+        if (results[i].outcome == ModelLevelOutcome::failed && results[i].model_level.plain() && below(top.model_level, results[i].model_level))
             j.contradiction = i;
     if (!j.contradiction) j.choice = cheapest_within(seconds, deviation, tolerance);
     const std::vector<bool> front = pareto_front(seconds, deviation);
-    for (std::size_t i = 0; i < results.size(); ++i) j.rungs[i].front = front[i];
+    for (std::size_t i = 0; i < results.size(); ++i) j.model_levels[i].front = front[i];
     return j;
 }
 

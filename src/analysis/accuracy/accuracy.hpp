@@ -1,20 +1,20 @@
 #pragma once
 
-#include "analysis/accuracy/ladder.hpp"
-#include "analysis/accuracy/rung.hpp"
-#include "analysis/accuracy/rung_runner.hpp"
+#include "analysis/accuracy/hierarchy.hpp"
+#include "analysis/accuracy/model_level.hpp"
+#include "analysis/accuracy/model_level_runner.hpp"
 #include "scene/scene.hpp"
 
 #include <optional>
 #include <span>
 #include <vector>
 
-/// What the rungs say about each other. No model is run here.
+/// What the model levels say about each other. No model is run here.
 namespace damslip {
 
-/// The slip that the rungs of one model tend to, and how fast.
+/// The slip that the model levels of one model tend to, and how fast.
 struct ModelLimit {
-    std::string model;        ///< model_of the rungs
+    std::string model;        ///< model_of the model levels
     std::vector<double> slip; ///< of each motion [m]
     /// What the extrapolation itself cannot resolve, of each motion: half of what it adds [m].
     std::vector<double> open;
@@ -24,54 +24,54 @@ struct ModelLimit {
     bool mesh_known = false; ///< there are at least two meshes; else the limit is that of the scene's mesh
 };
 
-/// One rung beside the others, by motion the worst.
-struct RungVerdict {
+/// One model level beside the others, by motion the worst.
+struct ModelLevelVerdict {
     /// Estimate of what steps, elements, penalty and modes leave open: |slip - limit of the model|, at least the limit's
-    /// `open` [m]. Nothing for regressions and models with one rung.
+    /// `open` [m]. Nothing for regressions and models with one model level.
     std::optional<double> error;
     std::optional<double> model_difference; ///< limit of the model (slip, where it has none) - that of the top's [m]
     std::optional<double> off_top;          ///< slip - top's [m]
     /// (|slip - top's| + top's error) / |top's slip| [-], slips below `least_slip` taken as that; nothing without an
     /// error of the top.
     std::optional<double> deviation;
-    bool front = false; ///< no rung as fast or faster deviates less
+    bool front = false; ///< no model level as fast or faster deviates less
 };
 
 struct Judgement {
-    std::optional<std::size_t> top; ///< of the results; none: no rung is done
-    std::size_t motion = 0;         ///< whose figures in metres are shown: the largest slip of the top rung
+    std::optional<std::size_t> top; ///< of the results; none: no model level is done
+    std::size_t motion = 0;         ///< whose figures in metres are shown: the largest slip of the top model level
     std::vector<ModelLimit> models; ///< of FE models with at least two steps
-    std::vector<RungVerdict> rungs; ///< by result
-    /// A rung above the top that ran and has no final slip: what the top says is then in doubt, and none is chosen.
+    std::vector<ModelLevelVerdict> model_levels; ///< by result
+    /// A model level above the top that ran and has no final slip: what the top says is then in doubt, and none is chosen.
     std::optional<std::size_t> contradiction;
     std::optional<double> top_error;   ///< over the top's slip, the worst motion [-]
-    std::optional<std::size_t> choice; ///< cheapest rung within the tolerance; none: the top is not within it either
+    std::optional<std::size_t> choice; ///< cheapest model level within the tolerance; none: the top is not within it either
 };
 
 inline constexpr double least_slip = 1e-4; ///< [m]: relative deviations of smaller slips mean nothing
 
-Judgement judge_rungs(const std::vector<RungResult>& results, double tolerance);
+Judgement judge_model_levels(const std::vector<ModelLevelResult>& results, double tolerance);
 
-/// The rung with the fewest seconds among those whose deviation is within the tolerance; of equals the first. A larger
-/// tolerance admits all rungs that a smaller one does, so it never names a slower one.
+/// The model level with the fewest seconds among those whose deviation is within the tolerance; of equals the first. A larger
+/// tolerance admits all model levels that a smaller one does, so it never names a slower one.
 std::optional<std::size_t> cheapest_within(std::span<const double> seconds,
                                            std::span<const std::optional<double>> deviation, double tolerance);
 
-/// Pareto front: rungs such that none that is at least as fast deviates less, nor one as little and faster.
+/// Pareto front: model levels such that none that is at least as fast deviates less, nor one as little and faster.
 std::vector<bool> pareto_front(std::span<const double> seconds, std::span<const std::optional<double>> deviation);
 
-/// What accuracy costs on one scene: every rung with its slip, seconds and bytes, and what they say about each other.
+/// What accuracy costs on one scene: every model level with its slip, seconds and bytes, and what they say about each other.
 struct Accuracy {
-    std::vector<RungResult> rungs;
-    Judgement judgement; ///< names the cheapest rung within the tolerance
+    std::vector<ModelLevelResult> model_levels;
+    Judgement judgement; ///< names the cheapest model level within the tolerance
 };
 
-/// Climbs the ladder with all records of the scene. @param tolerance  share of the slip [-]
-/// @throws InputError, Interrupted as read_records(); what a rung cannot do is its result
+/// Runs the hierarchy with all records of the scene. @param tolerance  share of the slip [-]
+/// @throws InputError, Interrupted as read_records(); what a model level cannot do is its result
 Accuracy measure_accuracy(const Scene& scene, double tolerance, Effort effort, const Watch& watch);
 
-/// The scene that a rung runs; `fe` and `screen` run it alone to the same slip.
-Scene scene_of(const Scene& scene, const Rung& rung);
+/// The scene that a model level runs; `fe` and `screen` run it alone to the same slip.
+Scene scene_of(const Scene& scene, const ModelLevel& model_level);
 
 /// What a sequence of refined results says about its limit.
 

@@ -1,6 +1,6 @@
 #include "pages/accuracy/accuracy_pages.hpp"
 
-#include "analysis/accuracy/ladder.hpp"
+#include "analysis/accuracy/hierarchy.hpp"
 #include "core/units.hpp"
 #include "core/version.hpp"
 #include "pages/report/table_text.hpp"
@@ -17,24 +17,24 @@ namespace damslip::pages {
 
 namespace {
 
-/// Error of rungs over a size (step, element), a curve for each model; x ascending.
+/// Error of model levels over a size (step, element), a curve for each model; x ascending.
 Chart convergence_chart(const AccuracyReportInput& in, const std::string& title, const Axis& x,
-                        std::vector<const RungResult*> (*rungs)(const std::vector<RungResult>&, RungWater),
-                        double (*size)(const RungResult&))
+                        std::vector<const ModelLevelResult*> (*model_levels)(const std::vector<ModelLevelResult>&, ModelLevelWater),
+                        double (*size)(const ModelLevelResult&))
 {
     Chart chart;
     chart.title = title;
     chart.x = x;
     chart.y = {"estimated error of the slip", "mm", Scale::log};
-    for (const RungWater water : {RungWater::dry, RungWater::hydrostatic, RungWater::added_mass, RungWater::acoustic}) {
-        std::vector<const RungResult*> row = rungs(in.results, water);
+    for (const ModelLevelWater water : {ModelLevelWater::dry, ModelLevelWater::hydrostatic, ModelLevelWater::added_mass, ModelLevelWater::acoustic}) {
+        std::vector<const ModelLevelResult*> row = model_levels(in.results, water);
         if (row.size() < 2) continue;
         std::reverse(row.begin(), row.end());
         Curve curve;
-        curve.name = model_of(row.front()->rung);
+        curve.name = model_of(row.front()->model_level);
         curve.mark = Mark::line_and_points;
-        for (const RungResult* r : row) {
-            const auto& error = in.judgement.rungs[static_cast<std::size_t>(r - in.results.data())].error;
+        for (const ModelLevelResult* r : row) {
+            const auto& error = in.judgement.model_levels[static_cast<std::size_t>(r - in.results.data())].error;
             if (!error) continue;
             curve.x.push_back(size(*r));
             curve.y.push_back(*error / units::mm);
@@ -52,12 +52,12 @@ Chart cost_chart(const AccuracyReportInput& in)
     chart.x = {"time of this model level alone", "s", Scale::log};
     chart.y = {"deviation from the finest model level", "%", Scale::log};
     chart.horizontal.push_back({100.0 * in.tolerance, fmt::format("tolerance {:.3g} %", 100.0 * in.tolerance)});
-    for (const RungKind kind : {RungKind::regression, RungKind::rigid, RungKind::reduced, RungKind::finite_elements,
-                                RungKind::variant, RungKind::acoustic, RungKind::quadratic, RungKind::other_rock}) {
+    for (const ModelLevelKind kind : {ModelLevelKind::regression, ModelLevelKind::rigid, ModelLevelKind::reduced, ModelLevelKind::finite_elements,
+                                ModelLevelKind::variant, ModelLevelKind::acoustic, ModelLevelKind::quadratic, ModelLevelKind::other_rock}) {
         std::vector<std::pair<double, double>> points;
         for (std::size_t i = 0; i < in.results.size(); ++i)
-            if (const auto& deviation = in.judgement.rungs[i].deviation;
-                deviation && kind_of(in.results[i].rung) == kind)
+            if (const auto& deviation = in.judgement.model_levels[i].deviation;
+                deviation && kind_of(in.results[i].model_level) == kind)
                 points.emplace_back(in.results[i].seconds, 100.0 * *deviation);
         if (points.empty()) continue;
         std::sort(points.begin(), points.end());
@@ -75,13 +75,13 @@ Chart cost_chart(const AccuracyReportInput& in)
     return chart;
 }
 
-double step_size(const RungResult& r)
+double step_size(const ModelLevelResult& r)
 {
     return 1e3 * r.time_step.value_or(0.0);
 }
-double element_factor(const RungResult& r)
+double element_factor(const ModelLevelResult& r)
 {
-    return r.rung.mesh;
+    return r.model_level.mesh;
 }
 
 Headline headline(const AccuracyReportInput& in)
@@ -97,26 +97,26 @@ std::vector<std::pair<std::string, std::string>> key_figures(const AccuracyRepor
     std::vector<std::pair<std::string, std::string>> list;
     const Judgement& j = in.judgement;
     if (!j.top) return list;
-    const RungResult& top = in.results[*j.top];
+    const ModelLevelResult& top = in.results[*j.top];
     list.emplace_back("Slip of the finest model level",
                       fmt::format("{:.4g} mm ({})", top.slip[j.motion] / units::mm, in.motions()[j.motion].label()));
-    list.emplace_back("Finest model level", rung_id(top.rung));
+    list.emplace_back("Finest model level", model_level_id(top.model_level));
     if (j.top_error) list.emplace_back("It leaves open", fmt::format("{:.2g} %", 100.0 * *j.top_error));
     list.emplace_back("It takes", fmt::format("{:.3g} s", top.seconds));
     if (j.choice) {
-        list.emplace_back("Model level within the tolerance", rung_id(in.results[*j.choice].rung));
+        list.emplace_back("Model level within the tolerance", model_level_id(in.results[*j.choice].model_level));
         list.emplace_back("It takes", fmt::format("{:.3g} s", in.results[*j.choice].seconds));
     }
     return list;
 }
 
-/// Rungs that ran, or should have, and have no slip to draw, by their status.
-std::string not_drawn(const std::vector<RungResult>& results)
+/// Model levels that ran, or should have, and have no slip to draw, by their status.
+std::string not_drawn(const std::vector<ModelLevelResult>& results)
 {
     std::string list;
-    for (const RungResult& r : results)
-        if (!r.done() && r.outcome != RungOutcome::skipped)
-            list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", rung_id(r.rung), word(r.status));
+    for (const ModelLevelResult& r : results)
+        if (!r.done() && r.outcome != ModelLevelOutcome::skipped)
+            list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", model_level_id(r.model_level), word(r.status));
     return list.empty() ? "" : " Not drawn: " + list + ".";
 }
 
@@ -170,7 +170,7 @@ Page accuracy_page(const AccuracyReportInput& in)
     page.warnings = in.messages;
     for (std::string& w : record_warnings(in.records)) page.warnings.push_back(std::move(w));
     page.sections.push_back(cost_section(in));
-    page.sections.push_back({"Model levels", {rows_part(rung_table(in.results, in.judgement))}, Fold::open});
+    page.sections.push_back({"Model levels", {rows_part(model_level_table(in.results, in.judgement))}, Fold::open});
     page.sections.push_back(convergence_section(in));
     page.sections.push_back(limits_section(in.scene, Method::finite_elements));
     page.sections.push_back({"Scene", {scene_listing(in.scene)}, Fold::open});
@@ -180,7 +180,7 @@ Page accuracy_page(const AccuracyReportInput& in)
     return page;
 }
 
-// The ladder as object, text and CSV.
+// The hierarchy as object, text and CSV.
 
 Answer accuracy_answer(const AccuracyReportInput& in)
 {
@@ -195,15 +195,15 @@ Answer accuracy_answer(const AccuracyReportInput& in)
     if (judged.top) {
         const MotionName motion = in.motions()[judged.motion];
         governs = {{"record", motion.record}, {"polarity", motion.polarity}};
-        top = rung_id(in.results[*judged.top].rung);
+        top = model_level_id(in.results[*judged.top].model_level);
     }
     if (judged.top_error) top_open = *judged.top_error;
-    if (judged.choice) choice = {{"rung", rung_id(in.results[*judged.choice].rung)}, {"command", in.command}};
+    if (judged.choice) choice = {{"rung", model_level_id(in.results[*judged.choice].model_level)}, {"command", in.command}};
     all.set("governs", governs);
     all.set("top", top);
     all.set("top_open", top_open);
     all.set("choice", choice);
-    all.add("rungs", rung_table(in.results, judged));
+    all.add("rungs", model_level_table(in.results, judged));
     all.add("front", front_table(in.results, judged), {.text = false, .brief = true, .data = false});
     all.add("models", model_table(in.results, judged), {.brief = true});
     all.add("slips", slip_table(in.results, in.motions()), {.text = false});
@@ -216,23 +216,23 @@ Answer accuracy_answer(const AccuracyReportInput& in)
     return all;
 }
 
-std::string accuracy_csv(const Scene& scene, const std::vector<RungResult>& results, const Judgement& judgement)
+std::string accuracy_csv(const Scene& scene, const std::vector<ModelLevelResult>& results, const Judgement& judgement)
 {
-    return csv(rung_table(results, judgement),
+    return csv(model_level_table(results, judgement),
                {"damslip " + program_version() + " accuracy", "scene " + scene_hash(scene)});
 }
 
-Answer one_rung_answer(const RungResult& result, const std::vector<MotionName>& motions)
+Answer one_model_level_answer(const ModelLevelResult& result, const std::vector<MotionName>& motions)
 {
     Answer answer(json_header("accuracy"));
-    answer.set("rung", rung_id(result.rung));
-    answer.add("runs", one_rung_table(result, motions), {.brief = true});
+    answer.set("rung", model_level_id(result.model_level));
+    answer.add("runs", one_model_level_table(result, motions), {.brief = true});
     answer += "status: " + word(result.status) + "\n";
     answer.set("status", word(result.status));
     answer.set("remark", result.remark);
     answer.headline_in_brief({result.done() ? fmt::format("Model level {}: slip {:.4g} mm at most.",
-                                                          rung_id(result.rung), result.largest_slip() / units::mm)
-                                            : "Model level " + rung_id(result.rung) + " has no slip.",
+                                                          model_level_id(result.model_level), result.largest_slip() / units::mm)
+                                            : "Model level " + model_level_id(result.model_level) + " has no slip.",
                               Outcome::none, word(result.status)});
     if (!result.remark.empty()) answer.note(result.remark);
     return answer;

@@ -13,32 +13,32 @@ namespace {
 
 using units::mm;
 
-/// Of the list; empty for a rung that was skipped, and for a regression, which gives an estimate and no run.
-Cell status_cell(const RungResult& r)
+/// Of the list; empty for a model level that was skipped, and for a regression, which gives an estimate and no run.
+Cell status_cell(const ModelLevelResult& r)
 {
-    if (r.outcome == RungOutcome::skipped) return {};
-    if (r.done() && r.rung.family == RungFamily::regression) return {};
+    if (r.outcome == ModelLevelOutcome::skipped) return {};
+    if (r.done() && r.model_level.family == ModelLevelFamily::regression) return {};
     return word(r.status);
 }
 
-std::string remark_of(const RungResult& r)
+std::string remark_of(const ModelLevelResult& r)
 {
     switch (r.outcome) {
-    case RungOutcome::done:
-    case RungOutcome::failed:
-    case RungOutcome::refused:
+    case ModelLevelOutcome::done:
+    case ModelLevelOutcome::failed:
+    case ModelLevelOutcome::refused:
         return r.remark;
-    case RungOutcome::skipped:
+    case ModelLevelOutcome::skipped:
         return "skipped: " + r.remark;
-    case RungOutcome::stopped:
+    case ModelLevelOutcome::stopped:
         return "";
     }
     return "";
 }
 
-struct RungRow {
-    const RungResult& result;
-    const RungVerdict& verdict;
+struct ModelLevelRow {
+    const ModelLevelResult& result;
+    const ModelLevelVerdict& verdict;
     const Judgement& judgement;
 
     Cell of_motion(const std::vector<double>& values) const
@@ -54,15 +54,15 @@ struct RungRow {
     }
 };
 
-std::vector<ColumnOf<RungRow>> rung_columns()
+std::vector<ColumnOf<ModelLevelRow>> model_level_columns()
 {
-    using R = RungRow;
-    const auto if_done = [](auto RungResult::*value) {
+    using R = ModelLevelRow;
+    const auto if_done = [](auto ModelLevelResult::*value) {
         return [=](const R& r) { return r.result.done() ? Cell(r.result.*value) : Cell(); };
     };
     const auto megabytes = [](const R& r) { return r.result.done() ? optional_cell(r.result.bytes, 1e6) : Cell(); };
     const auto deviation = [](const R& r) { return r.verdict.deviation ? Cell(100.0 * *r.verdict.deviation) : Cell(); };
-    return {{in_brief({"rung", "model level"}), [](const R& r) { return rung_id(r.result.rung); }},
+    return {{in_brief({"rung", "model level"}), [](const R& r) { return model_level_id(r.result.model_level); }},
             {in_brief({"slip_mm", "slip", "mm", 5}), [](const R& r) { return r.of_motion(r.result.slip); }},
             {{"slip_16_mm", "16 %", "mm", 3}, [](const R& r) { return r.of_motion(r.result.low); }},
             {{"slip_84_mm", "84 %", "mm", 3}, [](const R& r) { return r.of_motion(r.result.high); }},
@@ -73,9 +73,9 @@ std::vector<ColumnOf<RungRow>> rung_columns()
             {{"off_top_percent", "slip − top's", "%", 3}, &R::off_top_percent},
             {in_brief({"deviation_percent", "deviation", "%", 3}), deviation},
             {{"front", "front"}, [](const R& r) { return r.verdict.front ? Cell(true) : Cell(); }},
-            {in_brief({"seconds", "time", "s", 3}), if_done(&RungResult::seconds)},
-            {{"set_up_seconds", "set-up", "s", 2}, if_done(&RungResult::set_up_seconds)},
-            {{"repeats", "runs"}, if_done(&RungResult::repeats)},
+            {in_brief({"seconds", "time", "s", 3}), if_done(&ModelLevelResult::seconds)},
+            {{"set_up_seconds", "set-up", "s", 2}, if_done(&ModelLevelResult::set_up_seconds)},
+            {{"repeats", "runs"}, if_done(&ModelLevelResult::repeats)},
             {{"megabytes", "memory", "MB", 3}, megabytes},
             {{"unknowns", "unknowns"}, [](const R& r) { return optional_cell(r.result.unknowns); }},
             {{"time_step_s", "step", "s", 4}, [](const R& r) { return optional_cell(r.result.time_step); }},
@@ -86,11 +86,11 @@ std::vector<ColumnOf<RungRow>> rung_columns()
 
 } // namespace
 
-Table rung_table(const std::vector<RungResult>& results, const Judgement& j)
+Table model_level_table(const std::vector<ModelLevelResult>& results, const Judgement& j)
 {
-    std::vector<RungRow> rows;
-    for (std::size_t i = 0; i < results.size(); ++i) rows.push_back({results[i], j.rungs[i], j});
-    Table t = table_of("Model levels", rung_columns(), rows);
+    std::vector<ModelLevelRow> rows;
+    for (std::size_t i = 0; i < results.size(); ++i) rows.push_back({results[i], j.model_levels[i], j});
+    Table t = table_of("Model levels", model_level_columns(), rows);
     t.notes = {
         "± steps, mesh: estimate of what steps, elements, penalty and modes leave open, from the model levels of the "
         "same "
@@ -110,21 +110,21 @@ Table rung_table(const std::vector<RungResult>& results, const Judgement& j)
     return t;
 }
 
-Table front_table(const std::vector<RungResult>& results, const Judgement& j)
+Table front_table(const std::vector<ModelLevelResult>& results, const Judgement& j)
 {
-    std::vector<RungRow> rows;
+    std::vector<ModelLevelRow> rows;
     for (std::size_t i = results.size(); i-- > 0;)
-        if (j.rungs[i].front) rows.push_back({results[i], j.rungs[i], j});
-    return table_of("Model levels that none as fast beats", rung_columns(), rows);
+        if (j.model_levels[i].front) rows.push_back({results[i], j.model_levels[i], j});
+    return table_of("Model levels that none as fast beats", model_level_columns(), rows);
 }
 
-Table model_table(const std::vector<RungResult>& results, const Judgement& j)
+Table model_table(const std::vector<ModelLevelResult>& results, const Judgement& j)
 {
     using M = ModelLimit;
     double reference = 0.0; // of the limits: the top's own, or its slip
     if (j.top) {
         reference = results[*j.top].slip[j.motion];
-        const std::string top = model_of(results[*j.top].rung);
+        const std::string top = model_of(results[*j.top].model_level);
         for (const M& m : j.models)
             if (m.model == top) reference = m.slip[j.motion];
     }
@@ -153,29 +153,29 @@ Table model_table(const std::vector<RungResult>& results, const Judgement& j)
     return t;
 }
 
-Table slip_table(const std::vector<RungResult>& results, const std::vector<MotionName>& motions)
+Table slip_table(const std::vector<ModelLevelResult>& results, const std::vector<MotionName>& motions)
 {
     struct Row {
-        std::string rung;
+        std::string model_level;
         MotionName motion;
         double slip; ///< [m]
     };
     std::vector<Row> rows;
-    for (const RungResult& r : results)
+    for (const ModelLevelResult& r : results)
         for (std::size_t i = 0; i < r.slip.size() && i < motions.size(); ++i)
-            rows.push_back({rung_id(r.rung), motions[i], r.slip[i]});
+            rows.push_back({model_level_id(r.model_level), motions[i], r.slip[i]});
     return table_of<Row>("",
-                         {{{"rung", "model level"}, &Row::rung},
+                         {{{"rung", "model level"}, &Row::model_level},
                           {{"record", "record"}, [](const Row& r) { return r.motion.record; }},
                           {{"polarity", "polarity"}, [](const Row& r) { return r.motion.polarity; }},
                           {{"slip_m", "slip", "m", 6}, &Row::slip}},
                          rows);
 }
 
-Table one_rung_table(const RungResult& result, const std::vector<MotionName>& motions)
+Table one_model_level_table(const ModelLevelResult& result, const std::vector<MotionName>& motions)
 {
     using Number = std::size_t;
-    return table_of<Number>("Model level " + rung_id(result.rung),
+    return table_of<Number>("Model level " + model_level_id(result.model_level),
                             {{in_brief({"record", "record"}), [&](Number i) { return motions[i].record; }},
                              {in_brief({"polarity", "polarity"}), [&](Number i) { return motions[i].polarity; }},
                              {ranking({"slip_mm", "slip", "mm", 6}), [&](Number i) { return result.slip[i] / mm; }},
@@ -183,10 +183,10 @@ Table one_rung_table(const RungResult& result, const std::vector<MotionName>& mo
                             std::views::iota(Number{0}, result.slip.size()));
 }
 
-bool all_fail_statically(const std::vector<RungResult>& results)
+bool all_fail_statically(const std::vector<ModelLevelResult>& results)
 {
     bool any = false;
-    for (const RungResult& r : results) {
+    for (const ModelLevelResult& r : results) {
         if (!r.ran()) continue;
         if (r.done() || !fails_statically(r.status)) return false;
         any = true;
@@ -196,39 +196,39 @@ bool all_fail_statically(const std::vector<RungResult>& results)
 
 namespace {
 
-std::string standing_sentence(const std::vector<RungResult>& results)
+std::string standing_sentence(const std::vector<ModelLevelResult>& results)
 {
     StatusCount count;
-    for (const RungResult& r : results)
+    for (const ModelLevelResult& r : results)
         if (r.ran()) count.add(r.status);
     return "The dam does not stand without an earthquake, by every model level that ran: " + count.words() + ".";
 }
 
 } // namespace
 
-std::string choice_sentence(const std::vector<RungResult>& results, const Judgement& j, double tolerance)
+std::string choice_sentence(const std::vector<ModelLevelResult>& results, const Judgement& j, double tolerance)
 {
     if (all_fail_statically(results)) return standing_sentence(results);
     if (!j.top) return "No model level has a slip to compare.";
-    const RungResult& top = results[*j.top];
+    const ModelLevelResult& top = results[*j.top];
     if (j.contradiction)
         return fmt::format("No model level can be named: {}, finer than the others, has no final slip: {}. {}",
-                           rung_id(results[*j.contradiction].rung), word(results[*j.contradiction].status),
+                           model_level_id(results[*j.contradiction].model_level), word(results[*j.contradiction].status),
                            results[*j.contradiction].remark);
     if (!j.top_error)
         return fmt::format(
             "Nothing says how far the finest model level, {}, is from its limit: more steps are needed (larger "
             "--budget).",
-            rung_id(top.rung));
+            model_level_id(top.model_level));
     if (!j.choice)
         return fmt::format("No model level is within {:.3g} %: the finest one, {}, itself leaves {:.2g} % open.",
-                           100.0 * tolerance, rung_id(top.rung), 100.0 * *j.top_error);
-    const RungResult& r = results[*j.choice];
+                           100.0 * tolerance, model_level_id(top.model_level), 100.0 * *j.top_error);
+    const ModelLevelResult& r = results[*j.choice];
     return fmt::format(
         "Cheapest model level within {:.3g} %: {}, slip {:.4g} mm in {:.2g} s, {:.2g} % from the finest ({}, {:.2g} "
         "s).",
-        100.0 * tolerance, rung_id(r.rung), r.slip[j.motion] / mm, r.seconds, 100.0 * *j.rungs[*j.choice].deviation,
-        rung_id(top.rung), top.seconds);
+        100.0 * tolerance, model_level_id(r.model_level), r.slip[j.motion] / mm, r.seconds, 100.0 * *j.model_levels[*j.choice].deviation,
+        model_level_id(top.model_level), top.seconds);
 }
 
 } // namespace damslip::pages

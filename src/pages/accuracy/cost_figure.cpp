@@ -12,9 +12,9 @@ namespace damslip::pages {
 namespace {
 
 constexpr double width = 880, height = 576, left = 74, right = 20, top = 94, bottom = 54;
-constexpr std::array<RungKind, 8> kinds{RungKind::regression, RungKind::rigid,           RungKind::reduced,
-                                        RungKind::variant,    RungKind::finite_elements, RungKind::acoustic,
-                                        RungKind::quadratic,  RungKind::other_rock};
+constexpr std::array<ModelLevelKind, 8> kinds{ModelLevelKind::regression, ModelLevelKind::rigid,           ModelLevelKind::reduced,
+                                        ModelLevelKind::variant,    ModelLevelKind::finite_elements, ModelLevelKind::acoustic,
+                                        ModelLevelKind::quadratic,  ModelLevelKind::other_rock};
 
 const char* const standalone_style = R"(<style>
 svg { --paper: #ffffff; --ink: #1c2227; --muted: #59656f; --grid: #e4e8eb; --axis: #3c464e; --mark: #6b4fa0;
@@ -60,12 +60,12 @@ std::string plain_number(double v)
 /// The figure under construction.
 class Figure {
 public:
-    Figure(const std::vector<RungResult>& results, const Judgement& judgement, double tolerance)
+    Figure(const std::vector<ModelLevelResult>& results, const Judgement& judgement, double tolerance)
         : results_(results), judgement_(judgement), tolerance_(tolerance)
     {
         std::vector<double> seconds, percent{100.0 * tolerance};
         for (std::size_t i = 0; i < results.size(); ++i) {
-            if (!judgement.rungs[i].deviation) continue;
+            if (!judgement.model_levels[i].deviation) continue;
             shown_.push_back(i);
             seconds.push_back(results[i].seconds);
             percent.push_back(percent_of(i));
@@ -81,7 +81,7 @@ public:
         draw_axes();
         draw_lines();
         draw_front();
-        for (const std::size_t i : shown_) draw_rung(i);
+        for (const std::size_t i : shown_) draw_model_level(i);
         for (const std::size_t i : named()) draw_name(i);
         draw_legend(title);
         const bool alone = style == FigureStyle::standalone;
@@ -93,7 +93,7 @@ public:
     }
 
 private:
-    double percent_of(std::size_t i) const { return std::max(100.0 * *judgement_.rungs[i].deviation, 1e-6); }
+    double percent_of(std::size_t i) const { return std::max(100.0 * *judgement_.model_levels[i].deviation, 1e-6); }
     double x(std::size_t i) const { return x_.at(results_[i].seconds); }
     double y(std::size_t i) const { return y_.at(percent_of(i)); }
 
@@ -156,7 +156,7 @@ private:
     {
         std::vector<std::size_t> front;
         for (const std::size_t i : shown_)
-            if (judgement_.rungs[i].front) front.push_back(i);
+            if (judgement_.model_levels[i].front) front.push_back(i);
         std::sort(front.begin(), front.end(),
                   [&](auto a, auto b) { return results_[a].seconds < results_[b].seconds; });
         std::string path;
@@ -168,29 +168,29 @@ private:
             "<path d=\"" + path + "\" style=\"fill:none;stroke:var(--ink);stroke-width:1.4;stroke-opacity:.55\"/>\n";
     }
 
-    static std::string colour(RungKind kind) { return fmt::format("var(--c{})", static_cast<int>(kind)); }
+    static std::string colour(ModelLevelKind kind) { return fmt::format("var(--c{})", static_cast<int>(kind)); }
 
-    void dot(double at_x, double at_y, RungKind kind, bool full, double radius)
+    void dot(double at_x, double at_y, ModelLevelKind kind, bool full, double radius)
     {
         body_ +=
             fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:g}\" style=\"fill:{};stroke:{};stroke-width:1.8\">",
                         at_x, at_y, radius, full ? colour(kind) : "var(--paper)", colour(kind));
     }
 
-    void draw_rung(std::size_t i)
+    void draw_model_level(std::size_t i)
     {
-        const bool front = judgement_.rungs[i].front;
+        const bool front = judgement_.model_levels[i].front;
         if (judgement_.choice == i)
             body_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"11\" "
                                  "style=\"fill:none;stroke:var(--mark);stroke-width:2.2\"/>\n",
                                  x(i), y(i));
-        dot(x(i), y(i), kind_of(results_[i].rung), front, front ? 5.5 : 4);
-        body_ += fmt::format("<title>{}: {:.3g} s, {:.3g} %</title></circle>\n", html_text(rung_id(results_[i].rung)),
+        dot(x(i), y(i), kind_of(results_[i].model_level), front, front ? 5.5 : 4);
+        body_ += fmt::format("<title>{}: {:.3g} s, {:.3g} %</title></circle>\n", html_text(model_level_id(results_[i].model_level)),
                              results_[i].seconds, percent_of(i));
         taken_.push_back({x(i) - 6, y(i) - 6, x(i) + 6, y(i) + 6});
     }
 
-    /// The chosen rung first, then the front, the top rung, and the fastest of each kind while there is room.
+    /// The chosen model level first, then the front, the top model level, and the fastest of each kind while there is room.
     std::vector<std::size_t> named() const
     {
         std::vector<std::size_t> order;
@@ -199,16 +199,16 @@ private:
         };
         if (judgement_.choice) add(*judgement_.choice);
         for (const std::size_t i : shown_)
-            if (judgement_.rungs[i].front) add(i);
+            if (judgement_.model_levels[i].front) add(i);
         if (judgement_.top) add(*judgement_.top);
         for (const std::size_t i : shown_)
-            if (kind_of(results_[i].rung) != RungKind::regression) add(i);
+            if (kind_of(results_[i].model_level) != ModelLevelKind::regression) add(i);
         return order;
     }
 
     void draw_name(std::size_t i)
     {
-        const std::string words = rung_id(results_[i].rung);
+        const std::string words = model_level_id(results_[i].model_level);
         const double size = 6.9 * static_cast<double>(words.size());
         const struct {
             double dx, dy;
@@ -224,7 +224,7 @@ private:
             if (std::any_of(taken_.begin(), taken_.end(),
                             [&](const Box& o) { return o.meets(box) && !(o.x0 == own.x0 && o.y0 == own.y0); }))
                 continue;
-            const bool front = judgement_.rungs[i].front || judgement_.choice == i;
+            const bool front = judgement_.model_levels[i].front || judgement_.choice == i;
             text(px, py, words, place.anchor,
                  fmt::format("paint-order:stroke;stroke:var(--paper);stroke-width:4;stroke-linejoin:round{}",
                              judgement_.choice == i ? ";font-weight:700"
@@ -239,9 +239,9 @@ private:
     {
         text(left, 22, title, "start", "font-size:16px;font-weight:600");
         double at = left + 6, row = 40;
-        for (const RungKind kind : kinds) {
+        for (const ModelLevelKind kind : kinds) {
             const bool there = std::any_of(shown_.begin(), shown_.end(),
-                                           [&](std::size_t i) { return kind_of(results_[i].rung) == kind; });
+                                           [&](std::size_t i) { return kind_of(results_[i].model_level) == kind; });
             if (!there) continue;
             const std::string words = kind_name(kind, results_);
             const double size = 6.6 * static_cast<double>(words.size());
@@ -253,7 +253,7 @@ private:
         }
     }
 
-    const std::vector<RungResult>& results_;
+    const std::vector<ModelLevelResult>& results_;
     const Judgement& judgement_;
     double tolerance_;
     std::vector<std::size_t> shown_;
@@ -264,46 +264,46 @@ private:
 
 } // namespace
 
-std::string cost_figure(const std::vector<RungResult>& results, const Judgement& judgement, double tolerance,
+std::string cost_figure(const std::vector<ModelLevelResult>& results, const Judgement& judgement, double tolerance,
                         const std::string& title, FigureStyle style)
 {
     return Figure(results, judgement, tolerance).svg(title, style);
 }
 
-RungKind kind_of(const Rung& rung)
+ModelLevelKind kind_of(const ModelLevel& model_level)
 {
-    if (rung.family == RungFamily::regression) return RungKind::regression;
-    if (rung.family == RungFamily::rigid) return RungKind::rigid;
-    if (rung.modes) return RungKind::reduced;
-    if (rung.rock != RungRock::as_the_scene || rung.wave_box != 1.0) return RungKind::other_rock;
-    if (rung.tangential_stiffness || rung.alpha || rung.step == StepChoice::as_the_scene) return RungKind::variant;
-    if (!rung.element.empty()) return RungKind::quadratic;
-    return rung.water == RungWater::acoustic ? RungKind::acoustic : RungKind::finite_elements;
+    if (model_level.family == ModelLevelFamily::regression) return ModelLevelKind::regression;
+    if (model_level.family == ModelLevelFamily::rigid) return ModelLevelKind::rigid;
+    if (model_level.modes) return ModelLevelKind::reduced;
+    if (model_level.rock != ModelLevelRock::as_the_scene || model_level.wave_box != 1.0) return ModelLevelKind::other_rock;
+    if (model_level.tangential_stiffness || model_level.alpha || model_level.step == StepChoice::as_the_scene) return ModelLevelKind::variant;
+    if (!model_level.element.empty()) return ModelLevelKind::quadratic;
+    return model_level.water == ModelLevelWater::acoustic ? ModelLevelKind::acoustic : ModelLevelKind::finite_elements;
 }
 
-std::string kind_name(RungKind kind, const std::vector<RungResult>& results)
+std::string kind_name(ModelLevelKind kind, const std::vector<ModelLevelResult>& results)
 {
     switch (kind) {
-    case RungKind::regression:
+    case ModelLevelKind::regression:
         return "regressions";
-    case RungKind::rigid:
+    case ModelLevelKind::rigid:
         return "rigid block";
-    case RungKind::reduced:
+    case ModelLevelKind::reduced:
         return "FE, few modes";
-    case RungKind::variant:
+    case ModelLevelKind::variant:
         return "FE, penalty or scheme";
-    case RungKind::acoustic:
+    case ModelLevelKind::acoustic:
         return "FE, acoustic water";
-    case RungKind::quadratic:
+    case ModelLevelKind::quadratic:
         return "FE, quadratic elements";
-    case RungKind::other_rock:
+    case ModelLevelKind::other_rock:
         return "FE, other rock or box of waves";
-    case RungKind::finite_elements:
+    case ModelLevelKind::finite_elements:
         break;
     }
-    for (const RungResult& r : results)
-        if (r.rung.family == RungFamily::finite_elements && r.rung.water != RungWater::acoustic)
-            return "FE, " + std::string(water_word(r.rung.water));
+    for (const ModelLevelResult& r : results)
+        if (r.model_level.family == ModelLevelFamily::finite_elements && r.model_level.water != ModelLevelWater::acoustic)
+            return "FE, " + std::string(water_word(r.model_level.water));
     return "FE";
 }
 

@@ -8,23 +8,23 @@
 #include <string_view>
 #include <vector>
 
-/// A rung of the accuracy ladder: one way to compute the slip of a scene.
+/// A model level of the accuracy hierarchy: one way to compute the slip of a scene.
 namespace damslip {
 
-enum class RungFamily { regression, rigid, finite_elements };
+enum class ModelLevelFamily { regression, rigid, finite_elements };
 enum class Components { horizontal, both };
 enum class RigidScheme { rocking, exact, slammer };              ///< the first: free to rock, too
-enum class RungWater { dry, hydrostatic, added_mass, acoustic }; ///< how the water takes part in the shaking
+enum class ModelLevelWater { dry, hydrostatic, added_mass, acoustic }; ///< how the water takes part in the shaking
 enum class StepChoice {
     fixed,        ///< dt / 2^halvings
     by_tolerance, ///< halved until the slip is within time.slip_tolerance: the default of `fe`
     adaptive,     ///< the same, sub-steps spread by their local error
-    as_the_scene  ///< step, contact law and all else as the scene says, where it differs from the ladder's settings
+    as_the_scene  ///< step, contact law and all else as the scene says, where it differs from the hierarchy's settings
 };
-enum class RungRock { as_the_scene, massless, radiating };
+enum class ModelLevelRock { as_the_scene, massless, radiating };
 
-struct Rung {
-    RungFamily family = RungFamily::rigid;
+struct ModelLevel {
+    ModelLevelFamily family = ModelLevelFamily::rigid;
     std::string regression; ///< id, or "ensemble": all valid ones, weighted
 
     // Rigid block.
@@ -32,7 +32,7 @@ struct Rung {
     RigidScheme scheme = RigidScheme::exact;
 
     // Finite elements; exact contact unless something else is said.
-    RungWater water = RungWater::dry;
+    ModelLevelWater water = ModelLevelWater::dry;
     StepChoice step = StepChoice::fixed;
     int halvings = 0;
     double mesh = 1.0;                          ///< element sizes over the scene's [-]: 2, 0.5
@@ -40,31 +40,31 @@ struct Rung {
     std::optional<int> modes;                   ///< reduced run: elastic modes kept
     std::optional<double> tangential_stiffness; ///< penalty [N/m^3]
     std::optional<double> alpha;                ///< of HHT, in place of the scene's scheme [-]
-    RungRock rock = RungRock::as_the_scene;
+    ModelLevelRock rock = ModelLevelRock::as_the_scene;
     double wave_box = 1.0; ///< of radiating rock: size of its box over the scene's [-]
 
     /// Neither other elements, modes, penalty nor scheme: a point of the model's own row of steps and column of meshes.
     bool plain() const
     {
-        return element.empty() && !modes && !tangential_stiffness && !alpha && rock == RungRock::as_the_scene &&
+        return element.empty() && !modes && !tangential_stiffness && !alpha && rock == ModelLevelRock::as_the_scene &&
                wave_box == 1.0 && step == StepChoice::fixed;
     }
-    bool operator==(const Rung&) const = default;
+    bool operator==(const ModelLevel&) const = default;
 };
 
 /// One word without blanks: "regression:jibson-1998", "rigid:h+v", "rigid:h+v,rocking", "fe-acoustic:dt/4,h/2", "fe-acoustic:dt/4,2h,q8",
 /// "fe-added-mass:dt/4,modes=12".
-std::string rung_id(const Rung& rung);
+std::string model_level_id(const ModelLevel& model_level);
 /// The inverse; nothing for a word that is no id.
-std::optional<Rung> parse_rung(std::string_view id);
+std::optional<ModelLevel> parse_model_level(std::string_view id);
 
-/// What the rung computes a limit of: rungs of one model tend to one slip as steps, elements and penalties are refined.
+/// What the model level computes a limit of: model levels of one model tend to one slip as steps, elements and penalties are refined.
 /// "rigid:h+v", "fe-acoustic", "fe-acoustic,rock=massless" where that is not the scene's, each regression its own.
-std::string model_of(const Rung& rung);
+std::string model_of(const ModelLevel& model_level);
 
-std::string_view water_word(RungWater water); ///< "added mass"
+std::string_view water_word(ModelLevelWater water); ///< "added mass"
 
-enum class RungOutcome {
+enum class ModelLevelOutcome {
     done,    ///< there is a slip
     failed,  ///< it ran and has no final slip: see status and remark
     refused, ///< this scene cannot be run so, see the remark
@@ -72,16 +72,16 @@ enum class RungOutcome {
     stopped  ///< Ctrl-C: nothing of it counts
 };
 
-/// What a rung gave and what it cost.
-struct RungResult {
-    Rung rung;
-    RungOutcome outcome = RungOutcome::failed;
+/// What a model level gave and what it cost.
+struct ModelLevelResult {
+    ModelLevel model_level;
+    ModelLevelOutcome outcome = ModelLevelOutcome::failed;
     Status status = Status::not_resolved; ///< of what ran, the first motion that does not come to rest
     std::string remark;                   ///< what the status means here, or why there is none
     std::vector<double> slip;      ///< at the end, of each of motion_names(), positive downstream [m]; `done` only
     std::vector<double> low, high; ///< 16 and 84 % of a regression [m]; empty: no band
 
-    // Over all motions, processor time: what a user pays who runs this rung alone: the scene read, models made, records
+    // Over all motions, processor time: what a user pays who runs this model level alone: the scene read, models made, records
     // run.
     double seconds = 0.0;        ///< median of the repeats [s]; `skipped`: expected
     double set_up_seconds = 0.0; ///< of them, before the first motion is run [s]
@@ -90,9 +90,9 @@ struct RungResult {
     std::optional<double> time_step;      ///< the smallest used [s]
     std::optional<std::int64_t> unknowns; ///< of the FE model, the water's included; modes of a reduced run
     std::optional<std::int64_t> steps;    ///< of all motions, of the pass that counts
-    bool done() const { return outcome == RungOutcome::done; }
+    bool done() const { return outcome == ModelLevelOutcome::done; }
     double largest_slip() const; ///< with its sign; `done` only [m]
-    bool ran() const { return outcome == RungOutcome::done || outcome == RungOutcome::failed; }
+    bool ran() const { return outcome == ModelLevelOutcome::done || outcome == ModelLevelOutcome::failed; }
 };
 
 } // namespace damslip

@@ -1,4 +1,4 @@
-#include "analysis/accuracy/rung_runner.hpp"
+#include "analysis/accuracy/model_level_runner.hpp"
 
 #include "analysis/accuracy/accuracy.hpp"
 #include "analysis/fe/mesh_error.hpp"
@@ -60,12 +60,12 @@ std::string first_line(const std::string& text)
 }
 
 /// Takes over one motion's run. @returns false where it gives no slip
-bool take(const fe2d::RunResult& run, RungResult& result)
+bool take(const fe2d::RunResult& run, ModelLevelResult& result)
 {
     result.steps = result.steps.value_or(0) + run.counts.steps;
     result.time_step = std::min(result.time_step.value_or(run.dt), run.dt);
     result.status = run.status;
-    if (run.status == Status::interrupted) result.outcome = RungOutcome::stopped;
+    if (run.status == Status::interrupted) result.outcome = ModelLevelOutcome::stopped;
     if (run.status != Status::at_rest) {
         result.remark = run.message;
         return false;
@@ -75,23 +75,23 @@ bool take(const fe2d::RunResult& run, RungResult& result)
 }
 
 /// FE models from poor to rich: what the scene's reservoir.model calls for, and the poorer one below it.
-std::vector<RungWater> waters_of(const Scene& scene, std::vector<std::string>& left_out)
+std::vector<ModelLevelWater> waters_of(const Scene& scene, std::vector<std::string>& left_out)
 {
-    if (!has_water(scene)) return {RungWater::dry};
+    if (!has_water(scene)) return {ModelLevelWater::dry};
     switch (scene.reservoir->model) {
     case ReservoirModel::hydrostatic:
         left_out.push_back(
             "Added mass and acoustic water are not in this hierarchy of models: reservoir.model = \"hydrostatic\".");
-        return {RungWater::hydrostatic};
+        return {ModelLevelWater::hydrostatic};
     case ReservoirModel::added_mass:
         left_out.push_back("Acoustic water is not in this hierarchy of models: reservoir.model = \"added-mass\"; with "
                            "\"auto\" it is.");
-        return {RungWater::added_mass};
+        return {ModelLevelWater::added_mass};
     case ReservoirModel::acoustic:
     case ReservoirModel::automatic:
         break;
     }
-    return {RungWater::added_mass, RungWater::acoustic};
+    return {ModelLevelWater::added_mass, ModelLevelWater::acoustic};
 }
 
 bool can_reduce(const Scene& scene, std::vector<std::string>& left_out)
@@ -124,31 +124,31 @@ double coarsest_mesh(const Scene& scene)
 
 } // namespace
 
-RungRunner::RungRunner(Scene scene, Records records, double read_seconds, const Watch& watch)
+ModelLevelRunner::ModelLevelRunner(Scene scene, Records records, double read_seconds, const Watch& watch)
     : scene_(std::move(scene)), records_(std::move(records)), read_seconds_(read_seconds), watch_(watch)
 {
 }
 
-RungResult RungRunner::run(const Rung& rung) const
+ModelLevelResult ModelLevelRunner::run(const ModelLevel& model_level) const
 {
-    RungResult result;
-    result.rung = rung;
+    ModelLevelResult result;
+    result.model_level = model_level;
     const PeakMemory memory;
     const ProcessorClock clock(ProcessorTimeOf::process);
     try {
-        const Scene scene = scene_of(scene_, rung);
-        if (rung.family == RungFamily::regression)
-            run_regression(rung, result);
-        else if (rung.family == RungFamily::rigid)
+        const Scene scene = scene_of(scene_, model_level);
+        if (model_level.family == ModelLevelFamily::regression)
+            run_regression(model_level, result);
+        else if (model_level.family == ModelLevelFamily::rigid)
             run_rigid(scene, result);
         else
             run_finite_elements(scene, result);
-        if (result.slip.size() == motion_names(scene_, *records_).size()) result.outcome = RungOutcome::done;
+        if (result.slip.size() == motion_names(scene_, *records_).size()) result.outcome = ModelLevelOutcome::done;
     } catch (const Interrupted& stop) {
-        result.outcome = RungOutcome::stopped;
+        result.outcome = ModelLevelOutcome::stopped;
         result.remark = stop.what();
     } catch (const InputError& error) {
-        result.outcome = RungOutcome::refused;
+        result.outcome = ModelLevelOutcome::refused;
         result.status = Status::refused;
         result.remark = first_line(error.diagnostics().front().problem);
     } catch (const NotConverged& error) {
@@ -163,7 +163,7 @@ RungResult RungRunner::run(const Rung& rung) const
     return result;
 }
 
-void RungRunner::run_regression(const Rung& rung, RungResult& result) const
+void ModelLevelRunner::run_regression(const ModelLevel& model_level, ModelLevelResult& result) const
 {
     const ProcessorClock clock(ProcessorTimeOf::process);
     const Ready ready = prepare(scene_, Method::rigid_block, records_);
@@ -171,11 +171,11 @@ void RungRunner::run_regression(const Rung& rung, RungResult& result) const
     result.set_up_seconds = clock.seconds();
     const std::size_t polarities = polarities_of(scene_).size();
     for (const RecordPair& pair : ready.records()) {
-        const auto slip = regression_slip(rung.regression, ready, pair, model);
+        const auto slip = regression_slip(model_level.regression, ready, pair, model);
         if (!slip) {
             result.status =
                 model.state == sliding::StaticState::at_rest ? Status::refused : sliding::status_of(model.state);
-            if (result.status == Status::refused) result.outcome = RungOutcome::refused;
+            if (result.status == Status::refused) result.outcome = ModelLevelOutcome::refused;
             result.remark = "no valid value for record " + pair.files.name;
             return;
         }
@@ -190,7 +190,7 @@ void RungRunner::run_regression(const Rung& rung, RungResult& result) const
     if (result.low.size() != result.slip.size()) result.low = result.high = {};
 }
 
-void RungRunner::run_rigid(const Scene& given, RungResult& result) const
+void ModelLevelRunner::run_rigid(const Scene& given, ModelLevelResult& result) const
 {
     const ProcessorClock clock(ProcessorTimeOf::process);
     const Ready ready = prepare(given, Method::rigid_block, records_);
@@ -198,7 +198,7 @@ void RungRunner::run_rigid(const Scene& given, RungResult& result) const
     result.set_up_seconds = clock.seconds();
     for (const RecordPair& pair : ready.records())
         for (const GroundMotion& motion : ready.motions(pair)) {
-            const sliding::SlideResult r = result.rung.scheme == RigidScheme::rocking
+            const sliding::SlideResult r = result.model_level.scheme == RigidScheme::rocking
                                                ? rock_model(ready.scene, model, motion, 1).slide
                                                : slide_model(ready.scene, model, motion, 1);
             result.status = r.status;
@@ -212,23 +212,23 @@ void RungRunner::run_rigid(const Scene& given, RungResult& result) const
         }
 }
 
-void RungRunner::run_finite_elements(const Scene& given, RungResult& result) const
+void ModelLevelRunner::run_finite_elements(const Scene& given, ModelLevelResult& result) const
 {
     const ProcessorClock clock(ProcessorTimeOf::process);
-    const bool few_modes = result.rung.modes.has_value();
+    const bool few_modes = result.model_level.modes.has_value();
     const Ready ready = prepare(given, Method::finite_elements, records_, {.stop = watch_.stop()});
     const fe2d::RunOptions options = ready.run_options(watch_);
     const fe2d::EarthquakeRun full(ready.scene, options);
     std::optional<fe2d::ReducedRun> reduced;
-    if (few_modes) reduced.emplace(full, ready.scene, options, *result.rung.modes);
+    if (few_modes) reduced.emplace(full, ready.scene, options, *result.model_level.modes);
     result.unknowns = full.water() ? static_cast<std::int64_t>(full.water()->size) + full.model().counts.unknowns -
                                          static_cast<std::int64_t>(full.water()->dam_unknowns)
                                    : full.model().counts.unknowns;
-    if (reduced) result.unknowns = *result.rung.modes + 3; // rigid motions
+    if (reduced) result.unknowns = *result.model_level.modes + 3; // rigid motions
     result.set_up_seconds = clock.seconds();
     for (const RecordPair& pair : ready.records())
         for (const GroundMotion& motion : ready.motions(pair)) {
-            // Without an estimate of the modes left out: the ladder compares with the run that has all of them.
+            // Without an estimate of the modes left out: the hierarchy compares with the run that has all of them.
             const fe2d::RunResult run =
                 reduced ? reduced->run(motion, {}, {}, fe2d::TruncationEstimate::left_out) : full.run(motion);
             if (!take(run, result)) return;
@@ -236,7 +236,7 @@ void RungRunner::run_finite_elements(const Scene& given, RungResult& result) con
 }
 
 /// In some motion the block tips before it slides.
-bool RungRunner::rocks_first() const
+bool ModelLevelRunner::rocks_first() const
 {
     const Ready ready = prepare(scene_, Method::rigid_block, records_);
     const RigidModel model = ready.rigid_model();
@@ -247,16 +247,16 @@ bool RungRunner::rocks_first() const
     return false;
 }
 
-double RungRunner::least_seconds(const Rung& rung) const
+double ModelLevelRunner::least_seconds(const ModelLevel& model_level) const
 {
     constexpr double per_operation = 1e-10; // [s], of n³ in dense factors
-    if (rung.family != RungFamily::finite_elements || scene_.mesh.file) return 0.0;
-    return per_operation * std::pow(2.0 * elements_on_base(scene_of(scene_, rung)), 3.0);
+    if (model_level.family != ModelLevelFamily::finite_elements || scene_.mesh.file) return 0.0;
+    return per_operation * std::pow(2.0 * elements_on_base(scene_of(scene_, model_level)), 3.0);
 }
 
-LadderFacts RungRunner::facts() const
+HierarchyFacts ModelLevelRunner::facts() const
 {
-    LadderFacts facts;
+    HierarchyFacts facts;
     facts.rocks = rocks_first();
     facts.vertical = std::any_of(records_->begin(), records_->end(), [](const RecordPair& p) { return p.vertical; });
     if (!facts.vertical)
@@ -270,7 +270,7 @@ LadderFacts RungRunner::facts() const
     }
     facts.rock = rock_kind(scene_);
     facts.waters = waters_of(scene_, facts.left_out);
-    facts.reducible = can_reduce(scene_of(scene_, parse_rung("fe-added-mass:dt").value()), facts.left_out);
+    facts.reducible = can_reduce(scene_of(scene_, parse_model_level("fe-added-mass:dt").value()), facts.left_out);
     facts.alphas = other_alphas(scene_.time);
     facts.own_settings = scene_.time.substeps || with_exact_contact(scene_);
     facts.quadratic = linear_elements(scene_.mesh.element);

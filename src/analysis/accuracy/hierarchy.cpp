@@ -1,0 +1,351 @@
+#include "analysis/accuracy/hierarchy.hpp"
+
+#include "analysis/accuracy/accuracy.hpp"
+#include "core/watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip {
+
+namespace {
+
+constexpr int reduced_modes[] = {6, 12, 24};
+constexpr double penalties[] = {2e8, 1e10, 1e11}; // [N/m^3]; the first is about Abaqus' slip tolerance of 0.005
+constexpr double wave_boxes[] = {0.7, 1.4};       // of radiating rock, over the automatic one
+constexpr int finest_step = 7;                    // halvings
+constexpr double finest_mesh = 0.125;             // element sizes over the scene's
+constexpr double quadratic_unknowns = 3.0;        // of Q8 over those of Q4 of the same size
+constexpr double settled_slip = 1e-4;             // [m]: changes below the tolerance's share of it do not matter
+
+const ModelLevelResult* find(const std::vector<ModelLevelResult>& results, const ModelLevel& model_level)
+{
+    const auto at = std::find_if(results.begin(), results.end(), [&](const ModelLevelResult& r) { return r.model_level == model_level; });
+    return at == results.end() ? nullptr : &*at;
+}
+
+ModelLevel fe_model_level(ModelLevelWater water, int halvings, double mesh = 1.0)
+{
+    ModelLevel model_level;
+    model_level.family = ModelLevelFamily::finite_elements;
+    model_level.water = water;
+    model_level.halvings = halvings;
+    model_level.mesh = mesh;
+    return model_level;
+}
+
+bool of_model(const ModelLevelResult& r, ModelLevelWater water)
+{
+    return r.done() && r.model_level.family == ModelLevelFamily::finite_elements && r.model_level.water == water && r.model_level.plain();
+}
+
+/// Does what the finest model level of a row or column leaves open no longer matter, for every motion, by an order that can be
+/// believed?
+/// @param elsewhere  row that shows an order where this one has two model levels only; may be empty
+bool settled(const std::vector<const ModelLevelResult*>& row, double tolerance,
+             const std::vector<const ModelLevelResult*>& elsewhere = {})
+{
+    for (std::size_t motion = 0; motion < row.back()->slip.size(); ++motion) {
+        const std::vector<double> slips = slips_of(row, motion);
+        const std::optional<Limit> limit = extrapolated(slips, 2.0, observed_order(slips_of(elsewhere, motion)));
+        if (!limit || !limit->plausible() ||
+            std::abs(limit->correction) > tolerance * std::max(std::abs(slips.back()), settled_slip))
+            return false;
+    }
+    return true;
+}
+
+/// How far the row of a model goes: the halvings to run next, or the end of it.
+struct Row {
+    bool complete = false;
+    int last = -1; ///< halvings of the last done; of the one to run next where not complete
+};
+
+Row row_of(ModelLevelWater water, const HierarchyOptions& options, const std::vector<ModelLevelResult>& so_far)
+{
+    const int least = options.effort == Effort::quick ? 2 : 3, most = options.effort == Effort::quick ? 4 : 6;
+    const std::vector<const ModelLevelResult*> done = step_row(so_far, water);
+    const int n = static_cast<int>(done.size());
+    const ModelLevelResult* next = find(so_far, fe_model_level(water, n));
+    if (next || n > most || (n > least && settled(done, 0.25 * options.tolerance))) return {true, n - 1};
+    return {false, n};
+}
+
+void add_variants(const HierarchyFacts& facts, ModelLevelWater water, int halvings, std::vector<ModelLevel>& model_levels)
+{
+    const auto variant = [&](auto&& change) {
+        ModelLevel model_level = fe_model_level(water, halvings);
+        change(model_level);
+        model_levels.push_back(model_level);
+    };
+    if (facts.reducible)
+        for (const int modes : reduced_modes) variant([&](ModelLevel& r) { r.modes = modes; });
+    for (const double stiffness : penalties) variant([&](ModelLevel& r) { r.tangential_stiffness = stiffness; });
+    for (const double alpha : facts.alphas) variant([&](ModelLevel& r) { r.alpha = alpha; });
+    if (facts.rock == RockKind::radiating)
+        for (const double size : wave_boxes) variant([&](ModelLevel& r) { r.wave_box = size; });
+}
+
+/// What the rock does: the other of massless and radiating rock beside the scene's.
+void add_rock(const HierarchyFacts& facts, ModelLevelWater water, int halvings, std::vector<ModelLevel>& model_levels)
+{
+    if (facts.rock != RockKind::radiating && facts.rock != RockKind::massless) return;
+    model_levels.push_back(fe_model_level(water, halvings));
+    model_levels.back().rock = facts.rock == RockKind::radiating ? ModelLevelRock::massless : ModelLevelRock::radiating;
+}
+
+/// Quadratic elements of the scene's size and, where it leaves enough of them, of twice that: about as many unknowns as
+/// linear ones of half and of the same size, which are model levels with the same step.
+void add_elements(const HierarchyFacts& facts, ModelLevelWater water, int halvings, std::vector<ModelLevel>& model_levels)
+{
+    for (const double mesh : {2.0, 1.0}) {
+        if (mesh > facts.coarsest) continue;
+        model_levels.push_back(fe_model_level(water, halvings, mesh));
+        model_levels.back().element = "q8";
+    }
+}
+
+void add_cheap(const HierarchyFacts& facts, std::vector<ModelLevel>& model_levels)
+{
+    for (const std::string& id : facts.regressions) {
+        ModelLevel model_level;
+        model_level.family = ModelLevelFamily::regression;
+        model_level.regression = id;
+        model_levels.push_back(model_level);
+    }
+    for (const Components components : {Components::horizontal, Components::both}) {
+        if (components == Components::both && !facts.vertical) continue;
+        ModelLevel model_level;
+        model_level.components = components;
+        model_levels.push_back(model_level);
+        model_level.scheme = RigidScheme::slammer;
+        if (facts.slammer) model_levels.push_back(model_level);
+        model_level.scheme = RigidScheme::rocking;
+        if (facts.rocks) model_levels.push_back(model_level);
+    }
+}
+
+} // namespace
+
+std::vector<ModelLevel> hierarchy(const HierarchyFacts& facts, const HierarchyOptions& options, const std::vector<ModelLevelResult>& so_far)
+{
+    std::vector<ModelLevel> model_levels;
+    add_cheap(facts, model_levels);
+    std::vector<int> ends;
+    for (const ModelLevelWater water : facts.waters) {
+        const Row row = row_of(water, options, so_far);
+        for (int k = 0; k <= row.last; ++k) model_levels.push_back(fe_model_level(water, k));
+        if (!row.complete) return model_levels;
+        ends.push_back(row.last);
+        if (row.last < 1) continue; // not even two steps: nothing to compare beside
+        ModelLevel chosen = fe_model_level(water, 0);
+        chosen.step = StepChoice::by_tolerance;
+        model_levels.push_back(chosen);
+        chosen.step = StepChoice::adaptive;
+        model_levels.push_back(chosen);
+        chosen.step = StepChoice::as_the_scene;
+        if (facts.own_settings) model_levels.push_back(chosen);
+        for (double mesh = facts.coarsest; mesh > 1.0; mesh /= 2.0) model_levels.push_back(fe_model_level(water, row.last - 1, mesh));
+        if (water == facts.waters.back() && facts.quadratic && options.effort == Effort::full)
+            add_elements(facts, water, row.last - 1, model_levels);
+        add_rock(facts, water, row.last - 1, model_levels);
+        if (water == facts.waters.front() && options.effort == Effort::full)
+            add_variants(facts, water, row.last - 1, model_levels);
+        else if (water == facts.waters.front() && facts.reducible) {
+            model_levels.push_back(fe_model_level(water, row.last - 1));
+            model_levels.back().modes = reduced_modes[1];
+        }
+    }
+    if (options.effort == Effort::quick || facts.waters.empty()) return model_levels;
+    for (std::size_t i = 0; i < facts.waters.size(); ++i)
+        if (ends[i] >= 1) model_levels.push_back(fe_model_level(facts.waters[i], ends[i] - 1, 0.5));
+    const ModelLevelWater rich = facts.waters.back();
+    if (ends.back() < 1) return model_levels;
+    double mesh = 0.5; // of the rich model halved on until the slip is settled in the mesh too
+    const ModelLevelResult* last = find(so_far, fe_model_level(rich, ends.back() - 1, mesh));
+    while (last && last->done() && mesh > finest_mesh) {
+        last = find(so_far, fe_model_level(rich, ends.back() - 1, 0.5 * mesh));
+        if (!last && settled(mesh_column(so_far, rich), 0.25 * options.tolerance)) break;
+        model_levels.push_back(fe_model_level(rich, ends.back() - 1, 0.5 * mesh));
+        if (!last) return model_levels;
+        if (last->done()) mesh *= 0.5;
+    }
+    model_levels.push_back(fe_model_level(rich, ends.back(), mesh));
+    for (int k = ends.back(); k < finest_step; ++k) { // on fine meshes slips may need smaller steps than on the scene's
+        const ModelLevelResult* done = find(so_far, fe_model_level(rich, k, mesh));
+        if (!done || !done->done()) break;
+        if (!find(so_far, fe_model_level(rich, k + 1, mesh)) &&
+            settled(fine_row(so_far, rich), 0.25 * options.tolerance, step_row(so_far, rich)))
+            break;
+        model_levels.push_back(fe_model_level(rich, k + 1, mesh));
+    }
+    return model_levels;
+}
+
+std::optional<ModelLevel> next_model_level(const HierarchyFacts& facts, const HierarchyOptions& options,
+                              const std::vector<ModelLevelResult>& so_far)
+{
+    for (const ModelLevel& model_level : hierarchy(facts, options, so_far))
+        if (!find(so_far, model_level)) return model_level;
+    return std::nullopt;
+}
+
+bool below(const ModelLevel& a, const ModelLevel& b)
+{
+    if (a.family != b.family) return a.family < b.family;
+    if (a.family == ModelLevelFamily::rigid) // the block that may rock above the exact one, that above SLAMMER's
+        return std::pair(a.components, b.scheme) < std::pair(b.components, a.scheme);
+    if (a.family == ModelLevelFamily::regression) return b.regression == "ensemble" && a.regression != "ensemble";
+    if (a.water != b.water) return a.water < b.water;
+    if (a.mesh != b.mesh) return a.mesh > b.mesh;
+    return a.halvings < b.halvings;
+}
+
+std::optional<std::size_t> top_model_level(const std::vector<ModelLevelResult>& results)
+{
+    std::optional<std::size_t> top;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        const ModelLevelResult& r = results[i];
+        if (!r.done() || (r.model_level.family == ModelLevelFamily::finite_elements && !r.model_level.plain())) continue;
+        if (!top || below(results[*top].model_level, r.model_level)) top = i;
+    }
+    return top;
+}
+
+std::vector<const ModelLevelResult*> step_row(const std::vector<ModelLevelResult>& results, ModelLevelWater water)
+{
+    std::vector<const ModelLevelResult*> row;
+    for (;;) {
+        const ModelLevelResult* next = find(results, fe_model_level(water, static_cast<int>(row.size())));
+        if (!next || !next->done()) return row;
+        row.push_back(next);
+    }
+}
+
+std::vector<const ModelLevelResult*> fine_row(const std::vector<ModelLevelResult>& results, ModelLevelWater water)
+{
+    std::vector<const ModelLevelResult*> best = step_row(results, water);
+    for (double mesh = 0.5; mesh > 1e-3; mesh *= 0.5) {
+        std::vector<const ModelLevelResult*> row;
+        for (int k = 0; k <= 10; ++k) {
+            const ModelLevelResult* next = find(results, fe_model_level(water, k, mesh));
+            if (next && next->done())
+                row.push_back(next);
+            else if (!row.empty())
+                break;
+        }
+        if (row.size() > 1) best = std::move(row);
+    }
+    return best;
+}
+
+std::vector<double> slips_of(const std::vector<const ModelLevelResult*>& model_levels, std::size_t motion)
+{
+    std::vector<double> slips;
+    for (const ModelLevelResult* r : model_levels) slips.push_back(r->slip[motion]);
+    return slips;
+}
+
+std::vector<const ModelLevelResult*> mesh_column(const std::vector<ModelLevelResult>& results, ModelLevelWater water)
+{
+    std::vector<const ModelLevelResult*> best;
+    for (int halvings = 0; halvings <= 10; ++halvings) {
+        std::vector<const ModelLevelResult*> column;
+        for (const ModelLevelResult& r : results)
+            if (of_model(r, water) && r.model_level.halvings == halvings) column.push_back(&r);
+        if (column.size() >= best.size()) best = std::move(column);
+    }
+    std::sort(best.begin(), best.end(),
+              [](const ModelLevelResult* a, const ModelLevelResult* b) { return a->model_level.mesh > b->model_level.mesh; });
+    return best;
+}
+
+std::optional<double> expected_seconds(const ModelLevel& model_level, const std::vector<ModelLevelResult>& so_far)
+{
+    if (model_level.family != ModelLevelFamily::finite_elements) return std::nullopt;
+    const ModelLevelResult* nearest = nullptr;
+    const auto distance = [&](const ModelLevelResult& r) {
+        return 10.0 * (r.model_level.water != model_level.water) + std::abs(std::log2(r.model_level.mesh / model_level.mesh)) +
+               0.1 * std::abs(r.model_level.halvings - model_level.halvings);
+    };
+    for (const ModelLevelResult& r : so_far)
+        if (r.done() && r.model_level.family == ModelLevelFamily::finite_elements && r.model_level.plain() &&
+            (!nearest || distance(r) < distance(*nearest)))
+            nearest = &r;
+    if (!nearest) return std::nullopt;
+    const double more = model_level.element.empty() ? 1.0 : std::pow(quadratic_unknowns, 1.25);
+    const double unknowns = more * std::pow(nearest->model_level.mesh / model_level.mesh, 2.5);
+    const bool chosen = model_level.step == StepChoice::by_tolerance || model_level.step == StepChoice::adaptive;
+    const double steps = chosen ? 16.0 : std::exp2(model_level.halvings); // 16: passes with whole steps to eighths
+    const double run = nearest->seconds - nearest->set_up_seconds;
+    const double water = nearest->model_level.water == model_level.water ? 1.0 : 2.0;
+    return water * unknowns * (nearest->set_up_seconds + run * steps / std::exp2(nearest->model_level.halvings));
+}
+
+namespace {
+
+double median(std::vector<double> values)
+{
+    std::sort(values.begin(), values.end());
+    const std::size_t n = values.size();
+    return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
+ModelLevelResult skipped(const ModelLevel& model_level, double expected, double left)
+{
+    ModelLevelResult result;
+    result.model_level = model_level;
+    result.outcome = ModelLevelOutcome::skipped;
+    result.seconds = expected;
+    result.remark = fmt::format("about {:.3g} s, {:.3g} s of the budget left", expected, std::max(0.0, left));
+    return result;
+}
+
+} // namespace
+
+ModelLevelResult run_repeatedly(const ModelLevel& model_level, int repeats, const HierarchyCalls& calls)
+{
+    ModelLevelResult result = calls.run(model_level);
+    std::vector<double> seconds{result.seconds}, set_up{result.set_up_seconds};
+    double spent = result.seconds;
+    while (result.done() && static_cast<int>(seconds.size()) < repeats && spent + result.seconds < repeat_seconds) {
+        const ModelLevelResult again = calls.run(model_level);
+        if (!again.done()) break; // interrupted: the first run counts
+        seconds.push_back(again.seconds);
+        set_up.push_back(again.set_up_seconds);
+        spent += again.seconds;
+    }
+    result.repeats = static_cast<int>(seconds.size());
+    result.seconds = median(seconds);
+    result.set_up_seconds = median(set_up);
+    return result;
+}
+
+std::vector<ModelLevelResult> run_hierarchy(const HierarchyFacts& facts, const HierarchyRunOptions& options, const HierarchyCalls& calls)
+{
+    const ProcessorClock clock(ProcessorTimeOf::process);
+    std::vector<ModelLevelResult> results;
+    while (const std::optional<ModelLevel> model_level = next_model_level(facts, options.hierarchy, results)) {
+        if (calls.interrupted && calls.interrupted()) break;
+        const double left = options.budget ? *options.budget - clock.seconds() : 0.0;
+        const double least = calls.least_seconds ? calls.least_seconds(*model_level) : 0.0;
+        const double expected = std::max(least, expected_seconds(*model_level, results).value_or(0.0));
+        if (options.budget && expected >= left)
+            results.push_back(skipped(*model_level, expected, left));
+        else {
+            if (calls.begins) calls.begins(*model_level);
+            ModelLevelResult result = run_repeatedly(*model_level, options.repeats, calls);
+            if (result.outcome == ModelLevelOutcome::stopped) {
+                if (!options.budget || (calls.interrupted && calls.interrupted())) break;
+                result.outcome = ModelLevelOutcome::skipped;
+                result.remark = fmt::format("ended after {:.3g} s, when the budget was spent", result.seconds);
+            }
+            results.push_back(std::move(result));
+        }
+        if (calls.ends) calls.ends(results);
+    }
+    return results;
+}
+
+} // namespace damslip
