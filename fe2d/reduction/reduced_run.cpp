@@ -214,7 +214,7 @@ void reserve(RunHistory& history, std::size_t rows)
     for (std::vector<double>* series :
          {&history.time, &history.ground_h, &history.ground_v, &history.slip, &history.crest_x, &history.normal_force,
           &history.shear_force,
-          &slide.thrust_over_friction, &slide.hops, &slide.unloaded_share, &slide.rate})
+          &slide.thrust_over_friction, &slide.lift_offs, &slide.unloaded_share, &slide.rate})
         series->reserve(rows);
 }
 

@@ -441,7 +441,7 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
     const bool drains_lost = result.base_water && result.base_water->drains_lost;
     const CrackedUplift& uplift_after = drains_lost ? options_.drain_loss->uplift_after : options_.uplift_after;
     result.after = stage_after(*statics, *structure_, uplift_after, crack, load, strength_at_end, end.contact,
-                               &before, structure_->slides_far() ? LetGo{} : letting_go());
+                               &before, structure_->slides_far() ? Relaxation{} : relaxation());
 }
 
 SlideWatch EarthquakeRun::slide_watch(const Lane& lane, double record_end) const

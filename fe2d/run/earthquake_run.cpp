@@ -260,7 +260,7 @@ SplitLoad nothing(const SplitLoad& like)
 } // namespace
 
 /// For static stages whose bond breaks. The rock is that of the motion where it is the same structure.
-LetGo EarthquakeRun::letting_go() const
+Relaxation EarthquakeRun::relaxation() const
 {
     const Mesh& mesh = model_->mesh;
     double top = -std::numeric_limits<double>::infinity(), foot = -top;
@@ -270,7 +270,7 @@ LetGo EarthquakeRun::letting_go() const
     }
     const double young_modulus = scene_.dam.young_modulus.value_or(25e9); // about: the period sets a step size
     const bool explicit_steps = !operators_;
-    return let_go_by(*structure_, damping_, explicit_steps ? Scheme{} : operators_->scheme(),
+    return relaxation_of(*structure_, damping_, explicit_steps ? Scheme{} : operators_->scheme(),
                      explicit_steps || moving_ ? nullptr : operators_->radiating(), scene_.contact, options_.contact,
                      first_period(top - foot, young_modulus));
 }
@@ -278,10 +278,10 @@ LetGo EarthquakeRun::letting_go() const
 std::vector<StageResult> EarthquakeRun::statics(StaticContact& statics, Strength& strength, ContactMemory& memory) const
 {
     std::vector<StageResult> results;
-    const LetGo let_go = letting_go();
+    const Relaxation relax = relaxation();
     for (std::size_t k = 0; k < stages_.loads.size(); ++k) {
         const SplitLoad load = split(k), before = k > 0 ? split(k - 1) : nothing(load);
-        results.push_back(solve_stage(statics, *structure_, stages_.names[k], load, strength, memory, &before, let_go));
+        results.push_back(solve_stage(statics, *structure_, stages_.names[k], load, strength, memory, &before, relax));
         if (results.back().status != StageStatus::ok) break;
     }
     // Pairs almost without friction may defeat the solver before the load comes that no friction of theirs can hold.

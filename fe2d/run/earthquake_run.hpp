@@ -56,7 +56,7 @@ struct RunOptions {
     std::function<RunAnswer(const RunProgress&)> progress;
     bool ends_when_lifts_wake = false; ///< as interrupted, once a tied lift has reached wake_index
     StopAsked stop;                                  ///< asked between the parts of the set-up
-    std::function<void(int unknowns)> reducing_rock; ///< RadiatingRockInput::reducing; empty: nobody is told
+    std::function<void(int unknowns)> reducing_rock; ///< RadiatingRockInput::reducing; empty: no call
 };
 
 /// Seconds of each part.
@@ -205,7 +205,7 @@ private:
     std::shared_ptr<const ReducedRock> let_radiate();
     std::shared_ptr<const ExplicitOperators> explicit_operators() const;
     SplitLoad split(std::size_t stage) const;
-    LetGo letting_go() const;
+    Relaxation relaxation() const;
     SlideWatch slide_watch(const Lane& lane, double record_end) const;
     Eigen::VectorXd zero_displacement(StaticContact& statics, const Strength& strength) const;
     Lane lane_of(const Contact& contact) const;

@@ -159,7 +159,7 @@ void HistoryRecorder::reserve(std::size_t rows)
                          &h.largest_opening,
                          &h.imbalance,
                          &h.slide.thrust_over_friction,
-                         &h.slide.hops,
+                         &h.slide.lift_offs,
                          &h.slide.unloaded_share,
                          &h.slide.rate})
         series->reserve(rows);

@@ -14,8 +14,8 @@ constexpr double unloaded_below = 0.05;  ///< of the static N' [-]
 constexpr double indicator_time = 1.0;   ///< before each row of the history [s]
 constexpr std::size_t usual_steps = 256; ///< twice those of that time, where steps are not short
 constexpr std::size_t windows = 3;       ///< that have to go on alike
-constexpr double walked_share = 0.1;     ///< of the slip [-]
-constexpr int walked_hops = 3;
+constexpr double ratchet_share = 0.1;     ///< of the slip [-]
+constexpr int ratchet_lift_offs = 3;
 constexpr double smallest_change = 1e-9; ///< of times [s]; of work: lifts of the dam by a nanometre are none [m]
 
 } // namespace
@@ -25,9 +25,9 @@ double slide_window(double first_frequency)
     return first_frequency > 0.0 ? 5.0 / first_frequency : 1.0;
 }
 
-bool RunOutFigures::walked() const
+bool RunOutFigures::ratchets() const
 {
-    return std::abs(slip_at_rest) > walked_share * std::abs(slip_shaking + slip_at_rest) && hops > walked_hops;
+    return std::abs(slip_at_rest) > ratchet_share * std::abs(slip_shaking + slip_at_rest) && lift_offs > ratchet_lift_offs;
 }
 
 SlideWatch::SlideWatch(const SlideLimits& limits, std::function<double()> window)
@@ -46,12 +46,12 @@ void SlideWatch::add(const SlideInstant& now)
     Tally next{now};
     if (!second_.empty()) {
         const Tally& last = second_.back();
-        next.hops = last.hops + (now.open && !last.open);
+        next.lift_offs = last.lift_offs + (now.open && !last.open);
         const bool unloaded = now.normal_force < unloaded_below * limits_.static_normal_force;
         next.unloaded = last.unloaded + (unloaded ? now.time - last.time : 0.0);
-        if (!edges_.empty() && next.hops > last.hops) {
-            if (last.hops == hops_shaking_) first_hop_ = now.time;
-            last_hop_ = now.time;
+        if (!edges_.empty() && next.lift_offs > last.lift_offs) {
+            if (last.lift_offs == lift_offs_shaking_) first_lift_off_ = now.time;
+            last_lift_off_ = now.time;
         }
     }
     second_.push_back(next);
@@ -64,7 +64,7 @@ void SlideWatch::add(const SlideInstant& now)
     if (now.time < limits_.record_end - smallest_change) return;
     if (edges_.empty()) {
         edges_.push_back(next);
-        hops_shaking_ = next.hops;
+        lift_offs_shaking_ = next.lift_offs;
         return;
     }
     if (window_ == 0.0) window_ = find_window_();
@@ -107,7 +107,7 @@ void SlideWatch::add_row(SlideHistory& history) const
     const double time = now.time - from.time;
     const auto share = [&](double change) { return time > 0.0 ? change / time : 0.0; };
     history.thrust_over_friction.push_back(chi(from, now));
-    history.hops.push_back(now.hops);
+    history.lift_offs.push_back(now.lift_offs);
     history.unloaded_share.push_back(share(now.unloaded - from.unloaded));
     history.rate.push_back(share(now.slip - from.slip));
 }
@@ -123,8 +123,8 @@ RunOutFigures SlideWatch::figures() const
     figures.slip_shaking = edges_.empty() ? now.slip : edges_.front().slip;
     if (edges_.empty()) return figures;
     figures.slip_at_rest = now.slip - figures.slip_shaking;
-    figures.hops = now.hops - hops_shaking_;
-    if (figures.hops > 1) figures.hop_frequency = (figures.hops - 1) / (last_hop_ - first_hop_);
+    figures.lift_offs = now.lift_offs - lift_offs_shaking_;
+    if (figures.lift_offs > 1) figures.lift_off_frequency = (figures.lift_offs - 1) / (last_lift_off_ - first_lift_off_);
     const Tally& from = self_excited_ ? *(&edges_.back() - windows) : edges_.front();
     figures.thrust_over_friction = chi(from, now);
     figures.energy_kept =
@@ -150,11 +150,11 @@ std::string remedy(const Scene& scene)
            "that goes on sliding)";
 }
 
-std::string hops(const RunOutFigures& figures)
+std::string lift_off_words(const RunOutFigures& figures)
 {
-    if (figures.hops == 0) return "";
-    const std::string often = figures.hops > 1 ? fmt::format(", {:.3g} a second", figures.hop_frequency) : "";
-    return fmt::format(", {} {} with the whole base open{}", figures.hops, figures.hops == 1 ? "lift-off" : "lift-offs",
+    if (figures.lift_offs == 0) return "";
+    const std::string often = figures.lift_offs > 1 ? fmt::format(", {:.3g} a second", figures.lift_off_frequency) : "";
+    return fmt::format(", {} {} with the whole base open{}", figures.lift_offs, figures.lift_offs == 1 ? "lift-off" : "lift-offs",
                        often);
 }
 
@@ -169,14 +169,14 @@ std::string self_excited_sentence(const Scene& scene, double slip, const RunOutF
         "Self-excited, slid at least {:.4g} mm: with the ground at rest it goes on at {:.3g} mm/s although it "
         "would stand, FS {:.3g}; it slips while little presses on the base, so the static thrust {} and pays "
         "for the vibration{}. No slip can be given: {}.",
-        1e3 * std::abs(slip), 1e3 * std::abs(f.rate), f.sliding_factor, more, hops(f), remedy(scene));
+        1e3 * std::abs(slip), 1e3 * std::abs(f.rate), f.sliding_factor, more, lift_off_words(f), remedy(scene));
 }
 
 std::string walked_sentence(double slip, const RunOutFigures& f)
 {
     return fmt::format("{:.3g} mm of the slip of {:.4g} mm came after the record, with the ground at rest{}: it may be "
                        "the model that goes on sliding (docs/fe-contact.md, A dam that goes on sliding).",
-                       1e3 * std::abs(f.slip_at_rest), 1e3 * std::abs(slip), hops(f));
+                       1e3 * std::abs(f.slip_at_rest), 1e3 * std::abs(slip), lift_off_words(f));
 }
 
 } // namespace damslip::fe2d

@@ -51,7 +51,7 @@ struct SlideLimits {
 /// One row for each row of the run's history, of the second before it. An indicator only while the ground moves.
 struct SlideHistory {
     std::vector<double> thrust_over_friction; ///< χ [-]; NaN: friction has done no work
-    std::vector<double> hops;                 ///< times since the start that every pair of the base came to be open
+    std::vector<double> lift_offs;                 ///< times since the start that every pair of the base came to be open
     std::vector<double> unloaded_share;       ///< of the time: N' < 0.05 of its static value [-]
     std::vector<double> rate;                 ///< of the slip [m/s]
 };
@@ -60,8 +60,8 @@ struct SlideHistory {
 struct RunOutFigures {
     double slip_shaking = 0.0;  ///< while the ground moved [m]
     double slip_at_rest = 0.0;  ///< with the ground at rest [m]
-    int hops = 0;               ///< in the run-out: times that every pair of the base came to be open
-    double hop_frequency = 0.0; ///< from the first of them to the last [Hz]; 0: fewer than two
+    int lift_offs = 0;               ///< in the run-out: times that every pair of the base came to be open
+    double lift_off_frequency = 0.0; ///< from the first of them to the last [Hz]; 0: fewer than two
     double rate = 0.0;          ///< of the slip in the last second [m/s]
 
     // Of the three windows that decided where sliding is self-excited, else of the whole run-out.
@@ -70,8 +70,8 @@ struct RunOutFigures {
     double unloaded_share = 0.0;                                            ///< N' < 0.05 of its static value [-]
     double sliding_factor = std::numeric_limits<double>::quiet_NaN(); ///< static FS with the strength at the end [-]
 
-    /// Over a tenth of the slip came with the ground at rest, in more than three hops: a warning, no status.
-    bool walked() const;
+    /// Over a tenth of the slip came with the ground at rest, in more than three lift-offs: a warning, no status.
+    bool ratchets() const;
 };
 
 /// Follows a run step by step. Sliding is self-excited where, with the ground at rest,
@@ -95,7 +95,7 @@ public:
 
 private:
     struct Tally : SlideInstant {
-        int hops = 0;
+        int lift_offs = 0;
         double unloaded = 0.0; ///< time with N' below the share [s]
     };
     double window_end() const;
@@ -108,8 +108,8 @@ private:
     std::vector<Tally> second_; ///< the last one, from `oldest_` on; the present instant at its end
     std::size_t oldest_ = 0;    ///< what stands before it goes when it is more than half
     std::vector<Tally> edges_;  ///< of the windows, the record's end first
-    int hops_shaking_ = 0;
-    double first_hop_ = 0.0, last_hop_ = 0.0; ///< of the run-out [s]
+    int lift_offs_shaking_ = 0;
+    double first_lift_off_ = 0.0, last_lift_off_ = 0.0; ///< of the run-out [s]
     bool self_excited_ = false;
 };
 
@@ -117,7 +117,7 @@ private:
 /// radiates. @param slip  so far [m]
 std::string self_excited_sentence(const Scene& scene, double slip, const RunOutFigures& figures);
 
-/// The warning for a run in which the dam ratchets (RunOutFigures::walked()). @param slip  at the end [m]
+/// The warning for a run in which the dam ratchets (RunOutFigures::ratchets()). @param slip  at the end [m]
 std::string walked_sentence(double slip, const RunOutFigures& figures);
 
 } // namespace damslip::fe2d

@@ -279,19 +279,19 @@ double carried_at_once(StaticContact& statics, const SplitLoad& before, const Sp
     return low;
 }
 
-constexpr double first_jump = 1e-3; ///< load beyond the limit point with which the dam is let go; doubled each time [-]
+constexpr double first_jump = 1e-3; ///< load beyond the limit point with which the dam is released; doubled each time [-]
 
-/// From the limit point the dam is let go under a little more load. Where it comes to rest the load goes on.
+/// From the limit point the dam is released under a little more load. Where it comes to rest the load goes on.
 /// @param memory  at the limit point; changed as far as it went @returns whether it holds the whole load
 bool jump(StaticContact& statics, const SplitLoad& before, const SplitLoad& load, const ContactLaw& law,
-          const LetGo& let_go, ContactMemory& memory, BondLoad& bond, ContactReport& report)
+          const Relaxation& relax, ContactMemory& memory, BondLoad& bond, ContactReport& report)
 {
     double at = bond.largest;
     for (double more = first_jump; at < 1.0; more *= 2.0) {
         const double next = std::min(1.0, at + more);
         const SplitLoad higher = between(before, load, next);
         const StaticState start = statics.displacements(between(before, load, at), memory);
-        const Release release = let_go(higher, start, law, memory);
+        const Release release = relax(higher, start, law, memory);
         bond.lost += release.lost;
         if (!release.rests) return false;
         ++bond.jumps;
@@ -318,7 +318,7 @@ bool jump(StaticContact& statics, const SplitLoad& before, const SplitLoad& load
 
 StageResult solve_stage(StaticContact& statics, const ContactStructure& structure, const std::string& name,
                         const SplitLoad& load, Strength& strength, ContactMemory& memory, const SplitLoad* before,
-                        const LetGo& let_go)
+                        const Relaxation& relax)
 {
     const ContactPlanes& planes = structure.planes();
     const ContactLaw& law = strength.law();
@@ -339,7 +339,7 @@ StageResult solve_stage(StaticContact& statics, const ContactStructure& structur
     if (!result.contact.resolved() && before && memory.laws.find<BondLaw>()) {
         trial = memory;
         if (!follow_bond(statics, structure, *before, load, law, trial, result) &&
-            !(let_go && jump(statics, *before, load, law, let_go, trial, *result.bond, result.contact))) {
+            !(relax && jump(statics, *before, load, law, relax, trial, *result.bond, result.contact))) {
             result.status = StageStatus::progressive;
             BondLoad& bond = *result.bond;
             bond.largest = std::max(bond.largest, bond.carried);
@@ -361,7 +361,7 @@ StageResult solve_stage(StaticContact& statics, const ContactStructure& structur
 
 StageResult stage_after(StaticContact& statics, const ContactStructure& structure, const CrackedUplift& uplift,
                         const CrackLengths& cracked, const std::function<SplitLoad(const PressureProfile&)>& load,
-                        Strength strength, const ContactMemory& memory, const SplitLoad* before, const LetGo& let_go)
+                        Strength strength, const ContactMemory& memory, const SplitLoad* before, const Relaxation& relax)
 {
     const auto uplift_of = [&](const CrackLengths& crack) {
         return uplift ? uplift(crack.upstream, crack.downstream) : PressureProfile();
@@ -373,7 +373,7 @@ StageResult stage_after(StaticContact& statics, const ContactStructure& structur
         Strength left = strength;
         ContactMemory at_rest = memory;
         StageResult result = solve_stage(statics, structure, "after the earthquake", load(profile), left, at_rest,
-                                         before, let_go);
+                                         before, relax);
         if (profile.points != uplift_of({}).points)
             result.water = fmt::format("full head on {:.4g} m of the base", crack.upstream + crack.downstream);
         const CrackLengths &was = strength.opened(), &now = left.opened();

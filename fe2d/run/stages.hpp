@@ -96,15 +96,15 @@ struct Release {
     double lost = 0.0;  ///< energy that damping took [J/m]
 };
 /// @param start, memory  at the limit point; memory after: at rest
-using LetGo = std::function<Release(const SplitLoad& load, const StaticState& start, const ContactLaw& law,
+using Relaxation = std::function<Release(const SplitLoad& load, const StaticState& start, const ContactLaw& law,
                                     ContactMemory& memory)>;
 
 /// One stage from the memory of the one before. The memory is changed only when the stage ends in equilibrium.
 /// @param before  load of the stage before, from which a bond that breaks is followed; null: the stage is made at once
-/// @param let_go  of a dam whose bond does not carry the load on a way in equilibrium (let_go_by()); empty: it fails there
+/// @param relax  of a dam whose bond does not carry the load on a way in equilibrium (relaxation_of()); empty: it fails there
 StageResult solve_stage(StaticContact& statics, const ContactStructure& structure, const std::string& name,
                         const SplitLoad& load, Strength& strength, ContactMemory& memory,
-                        const SplitLoad* before = nullptr, const LetGo& let_go = {});
+                        const SplitLoad* before = nullptr, const Relaxation& relax = {});
 
 /// The static state after an earthquake: cohesion is lost where the joint has opened or slipped, friction is that of the path,
 /// and the uplift has its crack where the base has opened, in the earthquake or under these loads.
@@ -113,6 +113,6 @@ StageResult solve_stage(StaticContact& statics, const ContactStructure& structur
 StageResult stage_after(StaticContact& statics, const ContactStructure& structure, const CrackedUplift& uplift,
                         const CrackLengths& cracked, const std::function<SplitLoad(const PressureProfile&)>& load,
                         Strength strength, const ContactMemory& memory, const SplitLoad* before = nullptr,
-                        const LetGo& let_go = {});
+                        const Relaxation& relax = {});
 
 } // namespace damslip::fe2d

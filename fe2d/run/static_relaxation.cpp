@@ -50,7 +50,7 @@ double largest_mean(const ContactPlanes& planes, const VectorXd& slip)
     return largest;
 }
 
-Release let_go(const std::shared_ptr<StepOperators>& operators, const SplitLoad& load, const StaticState& start,
+Release relax(const std::shared_ptr<StepOperators>& operators, const SplitLoad& load, const StaticState& start,
                const ContactLaw& law, const Contact& joint, const ContactOptions& options, double dt,
                ContactMemory& memory)
 {
@@ -87,7 +87,7 @@ double first_period(double height, double young_modulus)
     return 381.0 * height / std::sqrt(young_modulus);
 }
 
-LetGo let_go_by(const ContactStructure& structure, const RunDamping& damping, const Scheme& scheme,
+Relaxation relaxation_of(const ContactStructure& structure, const RunDamping& damping, const Scheme& scheme,
                 const ReducedRock* radiating, const Contact& joint, const ContactOptions& options, double period)
 {
     RunDamping stiffness_alone = damping;
@@ -103,7 +103,7 @@ LetGo let_go_by(const ContactStructure& structure, const RunDamping& damping, co
                 *operators = std::make_shared<StepOperators>(
                     structure, stiffness_alone, scheme,
                     std::shared_ptr<const ReducedRock>(std::shared_ptr<const ReducedRock>(), radiating));
-            return let_go(*operators, load, start, law, joint, options, dt, memory);
+            return relax(*operators, load, start, law, joint, options, dt, memory);
         };
 }
 

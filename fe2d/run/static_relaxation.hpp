@@ -12,7 +12,7 @@ namespace damslip::fe2d {
 /// @param damping  of the run; at least 5 % in a mode of `period`, so that the dam does come to rest
 /// @param radiating  the rock of the motion, kept by reference; null: rigid base or massless rock
 /// @param period  about that of the dam's first mode [s]
-LetGo let_go_by(const ContactStructure& structure, const RunDamping& damping, const Scheme& scheme,
+Relaxation relaxation_of(const ContactStructure& structure, const RunDamping& damping, const Scheme& scheme,
                 const ReducedRock* radiating, const Contact& joint, const ContactOptions& options, double period);
 
 /// Of a dam, about: 381 s √(N/m²)/m H/√E (Fenves & Chopra 1987, 1.4 H/√E in ft and psi). @param height  [m]

@@ -23,7 +23,7 @@ std::string modal_obstacle(const TiedRunOptions& options);
 /// as long as 170 direct steps, and a step of the modes an eighth of a direct one.
 inline constexpr int modal_break_even = 200;
 
-/// Without `options.dt` a step of the motion is walked in this many parts, for the peaks between its samples: half a part off a
+/// Without `options.dt` a step of the motion is divided into this many parts, for the peaks between its samples: half a part off a
 /// peak of 20 Hz at 0.01 s is 0.3 % of it. Rows are kept at the motion's steps.
 inline constexpr int modal_parts = 8;
 

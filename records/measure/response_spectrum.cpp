@@ -51,7 +51,7 @@ struct Stretch {
     bool peaks = true;       ///< false: no extreme lies inside
 };
 
-/// How an interval of n smallest steps is walked, `per_period` of them a period. Between samples a response is a straight
+/// How an interval of n smallest steps is divided, `per_period` of them a period. Between samples a response is a straight
 /// line and what the oscillator remembers of the start. An oscillation that decays makes the largest value the first
 /// or the last of its extremes: their curves, straight line ± decaying exponential, are convex and concave. From the
 /// critical damping on, steps grow as the fast part is forgotten; once all is, one step takes the straight line.
@@ -88,7 +88,7 @@ public:
         const double h = dt / steps_;
         const OscillatorStep smallest(w_, ratio, h);
         for (const Stretch& stretch : plan_of(steps_, per_period, ratio))
-            walk_.push_back({stretch, h * stretch.size, smallest.repeated(stretch.size)});
+            parts_.push_back({stretch, h * stretch.size, smallest.repeated(stretch.size)});
     }
 
     /// One interval of the record, ground acceleration from a0 to a1.
@@ -97,13 +97,13 @@ public:
         const double change = (a1 - a0) / steps_;
         if (a0 != accel_end_) jump(a0);
         int done = 0;
-        for (const Walk& walk : walk_)
-            for (int j = 0; j < walk.stretch.count; ++j) {
+        for (const Part& part : parts_)
+            for (int j = 0; j < part.stretch.count; ++j) {
                 const double before = a0 + done * change;
-                done += walk.stretch.size;
+                done += part.stretch.size;
                 const double after = done == steps_ ? a1 : a0 + done * change;
-                state_ = walk.step.advance(state_, before, after);
-                keep(after, walk.h, walk.stretch.peaks);
+                state_ = part.step.advance(state_, before, after);
+                keep(after, part.h, part.stretch.peaks);
             }
         accel_end_ = a1;
     }
@@ -114,7 +114,7 @@ public:
     }
 
 private:
-    struct Walk {
+    struct Part {
         Stretch stretch;
         double h;
         OscillatorStep step;
@@ -140,7 +140,7 @@ private:
 
     double w_, ratio_;
     int steps_; ///< smallest steps of an interval
-    std::vector<Walk> walk_;
+    std::vector<Part> parts_;
     OscillatorState state_;
     double accel_end_ = 0.0;
     PeakKeeper displacement_, velocity_, absolute_;

@@ -21,7 +21,7 @@ inline void stop_if_asked(const StopAsked& asked, const char* where)
     if (asked && asked()) throw Interrupted(where);
 }
 
-/// Whoever waits for a long computation: is told how far it is, and asked whether it shall end. All members may be
+/// Whoever waits for a long computation: is notified how far it is, and asked whether it shall end. All members may be
 /// called from any thread. This one is silent and never ends anything; a program derives its own.
 class Watch {
 public:

@@ -49,7 +49,7 @@ struct AnnualRate {
 /// Of a lognormal fragility, exact on each segment, k = -ln(H_(i+1) / H_i) / ln(x_(i+1) / x_i), z = ln(x / theta) / beta:
 ///     P_i H_i - P_(i+1) H_(i+1) + H_i (x_i / theta)^k e^(k^2 beta^2 / 2) [Phi(z_(i+1) + k beta) - Phi(z_i + k beta)].
 /// beta = 0: H(theta).
-/// @param tested_lower, tested_upper  lowest and highest intensity with runs; the part of the rate outside is told
+/// @param tested_lower, tested_upper  lowest and highest intensity with runs; the part of the rate outside is reported
 /// @param nu  annual rate of all earthquakes the curve is made of, if known; >= H_1
 /// @throws ParameterError for median not > 0, beta < 0, nu < H_1
 AnnualRate annual_rate(const HazardCurve& curve, double median, double beta, double tested_lower, double tested_upper,

@@ -162,7 +162,7 @@ TEST(SlideWatch, windows_are_five_periods)
 }
 
 /// Every pair open for `open` of each tenth of a second after the record [s]; N' a given share of its static value else.
-SlideWatch hopping(int hops, double slip_at_rest, double share = 1.0)
+SlideWatch hopping(int lift_offs, double slip_at_rest, double share = 1.0)
 {
     SlideWatch watch({record_end, normal_force, 0.1}, [] { return 1.0; });
     SlideInstant now;
@@ -171,7 +171,7 @@ SlideWatch hopping(int hops, double slip_at_rest, double share = 1.0)
         const int after = n - 200; // steps
         now.time = n * step;
         now.slip = after < 0 ? 1.0 : 1.0 + slip_at_rest * after / 100.0;
-        now.open = after > 0 && after <= 10 * hops && after % 10 < 3 && after % 10 > 0;
+        now.open = after > 0 && after <= 10 * lift_offs && after % 10 < 3 && after % 10 > 0;
         now.normal_force = now.open ? 0.0 : share * normal_force;
         watch.add(now);
     }
@@ -181,22 +181,22 @@ SlideWatch hopping(int hops, double slip_at_rest, double share = 1.0)
 TEST(SlideWatch, hops_their_frequency_and_the_time_without_load_are_counted)
 {
     const RunOutFigures figures = hopping(5, 0.5).figures();
-    EXPECT_EQ(figures.hops, 5);
-    EXPECT_NEAR(figures.hop_frequency, 10.0, 1e-9); // every tenth of a second
+    EXPECT_EQ(figures.lift_offs, 5);
+    EXPECT_NEAR(figures.lift_off_frequency, 10.0, 1e-9); // every tenth of a second
     EXPECT_NEAR(figures.unloaded_share, 5 * 0.02 / 1.0, 1e-9);
     EXPECT_NEAR(figures.slip_shaking, 1.0, 1e-12);
     EXPECT_NEAR(figures.slip_at_rest, 0.5, 1e-12);
     EXPECT_TRUE(std::isnan(figures.thrust_over_friction)); // nothing was dissipated
     EXPECT_NEAR(hopping(0, 0.5, 0.049).figures().unloaded_share, 1.0, 1e-9);
     EXPECT_EQ(hopping(0, 0.5, 0.051).figures().unloaded_share, 0.0);
-    EXPECT_EQ(hopping(1, 0.5).figures().hop_frequency, 0.0);
+    EXPECT_EQ(hopping(1, 0.5).figures().lift_off_frequency, 0.0);
 }
 
 TEST(SlideWatch, more_than_three_hops_and_more_than_a_tenth_of_the_slip_are_a_walk)
 {
-    EXPECT_TRUE(hopping(4, 0.12).figures().walked()); // 0.12 of 1.12
-    EXPECT_FALSE(hopping(3, 0.12).figures().walked());
-    EXPECT_FALSE(hopping(4, 0.11).figures().walked()); // 0.11 of 1.11: 9.9 %
+    EXPECT_TRUE(hopping(4, 0.12).figures().ratchets()); // 0.12 of 1.12
+    EXPECT_FALSE(hopping(3, 0.12).figures().ratchets());
+    EXPECT_FALSE(hopping(4, 0.11).figures().ratchets()); // 0.11 of 1.11: 9.9 %
 }
 
 TEST(SlideWatch, rows_of_the_history_are_of_the_second_before_them)
@@ -219,9 +219,9 @@ TEST(SlideWatch, rows_of_the_history_are_of_the_second_before_them)
     EXPECT_NEAR(history.thrust_over_friction[200], 1.25, 1e-12);
     EXPECT_NEAR(history.rate[150], 0.15, 1e-9); // half of the second
     EXPECT_NEAR(history.rate[200], 0.30, 1e-9);
-    EXPECT_EQ(history.hops[149], 0.0);
-    EXPECT_EQ(history.hops[150], 1.0);
-    EXPECT_EQ(history.hops[200], 1.0);
+    EXPECT_EQ(history.lift_offs[149], 0.0);
+    EXPECT_EQ(history.lift_offs[150], 1.0);
+    EXPECT_EQ(history.lift_offs[200], 1.0);
 }
 
 // ---- dams

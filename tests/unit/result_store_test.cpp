@@ -64,7 +64,7 @@ TEST_F(ResultStoreFile, GivesBackEveryBit)
     written[1].history = {0.06, {0.0, -0.0000001, 0.1 + 0.2}};
     written[2].results.event_slips = {0.1 + 0.2, -0.0, 5e-324};
     written[2].results.anchors = {{"a, \"b\"", 1e6 / 3.0, "yielded"}, {"c", 0.0, "elastic"}};
-    written[3].results.hops = 3.0;
+    written[3].results.lift_offs = 3.0;
     written[3].results.slip_low = std::numeric_limits<double>::infinity();
     write_rows(written);
     std::sort(written.begin(), written.end(), [](const auto& a, const auto& b) { return a.id < b.id; });

@@ -443,7 +443,7 @@ std::vector<Check> bonded_dam_over_mesh()
     return checks;
 }
 
-/// A dam whose bond is gone at once is let go under its static load: it rests where friction alone holds it.
+/// A dam whose bond is gone at once is released under its static load: it rests where friction alone holds it.
 std::vector<Check> released_dam()
 {
     std::vector<Check> checks;
@@ -453,8 +453,8 @@ std::vector<Check> released_dam()
     const fe2d::SplitLoad load = structure.split(run.stages().last());
     const fe2d::BaseResultant base = base_resultant(structure, load.dam);
     const double critical = base.shear_force / base.normal_force;
-    const fe2d::LetGo let_go =
-        fe2d::let_go_by(structure, {run.damping()}, fe2d::hht(-0.05), nullptr, scene.contact, {}, 0.2);
+    const fe2d::Relaxation relax =
+        fe2d::relaxation_of(structure, {run.damping()}, fe2d::hht(-0.05), nullptr, scene.contact, {}, 0.2);
     for (const double above : {0.97, 1.1}) {
         Contact broken = scene.contact;
         broken.cohesion = 0.0;
@@ -466,7 +466,7 @@ std::vector<Check> released_dam()
         ContactMemory memory(structure.pairs());
         if (!statics.solve(load, fe2d::Strength(bonded, structure.plane()).law(), memory).resolved()) return {};
         const fe2d::StaticState start = statics.displacements(load, memory);
-        const fe2d::Release release = let_go(load, start, fe2d::Strength(broken, structure.plane()).law(), memory);
+        const fe2d::Release release = relax(load, start, fe2d::Strength(broken, structure.plane()).law(), memory);
         checks.push_back({above < 1.0 ? "comes to rest, mu 3 % below T/N'" : "comes to rest, mu 10 % above T/N'", "-",
                           above < 1.0 ? 0.0 : 1.0, release.rests ? 1.0 : 0.0, 0.0, Measure::absolute});
         if (!release.rests) continue;

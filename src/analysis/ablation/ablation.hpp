@@ -95,7 +95,7 @@ AblationRuns run_ablations(const AblationPlan& plan, const Records& records, int
 std::vector<Point> seepage_points(const Scene& scene);
 
 SceneRuns run_rigid(const Ready& ready, const Watch& watch);
-/// @param fraction  told how much of the scene's runs is done, 0 ... 1
+/// @param fraction  called with how much of the scene's runs is done, 0 ... 1
 SceneRuns run_fe(const Ready& ready, const AblationStep& step, const Watch& watch,
                  const std::function<void(double fraction)>& done);
 /// The step of the full scene at its own accuracy, dt/8 at least; or that of time.substeps.

@@ -70,14 +70,14 @@ std::string unanswered_words(const std::vector<ContactRun>& runs)
     std::string words;
     for (const ContactRun& r : runs) {
         if (is_answer(r.fe.status)) continue;
-        const std::optional<double> walked = walked_at_least(r.fe.status, r.fe.slip);
+        const std::optional<double> at_least = slid_at_least(r.fe.status, r.fe.slip);
         words += fmt::format("{}{}, polarity {:+d} {}{}", words.empty() ? "" : "; ", r.record, r.polarity,
-                             word(r.fe.status), walked ? fmt::format(", slid at least {:.4g} mm", 1e3 * *walked) : "");
+                             word(r.fe.status), at_least ? fmt::format(", slid at least {:.4g} mm", 1e3 * *at_least) : "");
     }
     return words;
 }
 
-std::optional<double> walked_at_least(Status status, double slip)
+std::optional<double> slid_at_least(Status status, double slip)
 {
     return status == Status::self_excited ? std::optional(std::abs(slip)) : std::nullopt;
 }

@@ -50,11 +50,11 @@ bool has_slip(const ContactRun& run);
 
 /// Has every run an answer, one that fails included?
 bool all_answered(const std::vector<ContactRun>& runs);
-/// "EC8, polarity -1 self-excited, walked ≥ 409 mm": the runs without an answer; empty where all have one.
+/// "EC8, polarity -1 self-excited, slid at least 409 mm": the runs without an answer; empty where all have one.
 std::string unanswered_words(const std::vector<ContactRun>& runs);
 
 /// How far a dam that goes on by itself had come when the run ended [m]; none for all others.
-std::optional<double> walked_at_least(Status status, double slip);
+std::optional<double> slid_at_least(Status status, double slip);
 
 /// Why parts of the errors are not known, each reason once.
 std::vector<std::string> error_notes(const std::vector<ContactRun>& runs);

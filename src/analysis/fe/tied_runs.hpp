@@ -45,7 +45,7 @@ public:
     const fe2d::RadiatingRock* radiating() const { return radiating_ ? &*radiating_ : nullptr; } ///< null: other rock
     const fe2d::StaticSolution& statics() const { return statics_; }
 
-    using TakeRun = std::function<void(TiedRun& run)>; ///< told each run as soon as it is there
+    using TakeRun = std::function<void(TiedRun& run)>; ///< called with each run as soon as it is there
     std::vector<TiedRun> run(const TakeRun& take = {});
 
 private:

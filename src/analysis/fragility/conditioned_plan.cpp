@@ -439,14 +439,14 @@ double correlation_of(const std::vector<double>& a, const std::vector<double>& b
 /// Runs the pilot and fits the failure model of each limit to it.
 std::vector<FailureModel> learn(const WithoutFriction& others, const std::vector<FrictionMotion>& motions,
                                 const SceneText& text, const SweepMethod& method, const ConditioningSizes& sizes,
-                                Watch& watch, ConditioningPilot& told)
+                                Watch& watch, ConditioningPilot& report)
 {
     const PilotRuns pilot = pilot_of(others, motions, sizes.pilot);
     const FragilityRuns runs =
         run_fragility(pilot.plan, text, method, wanted_samples(pilot.plan), nullptr, sizes.jobs, watch);
     stop_if_asked(watch.stop(), "the pilot of the finite elements");
-    told.runs = runs.finished();
-    told.seconds = runs.seconds;
+    report.runs = runs.finished();
+    report.seconds = runs.seconds;
     std::vector<FailureModel> models;
     for (std::size_t l = 0; l < others.base.input.limits.size(); ++l) {
         std::vector<double> x, f;
@@ -471,8 +471,8 @@ std::vector<FailureModel> learn(const WithoutFriction& others, const std::vector
                                                   m.star[l], m.stands_from, s.x));
             scale = models.back().middle(m.star[l], m.stands_from, s.x).scale;
         }
-        told.correlation.push_back(h.empty() ? 0.0 : correlation_of(h, f));
-        told.spread.push_back(scale);
+        report.correlation.push_back(h.empty() ? 0.0 : correlation_of(h, f));
+        report.spread.push_back(scale);
     }
     return models;
 }

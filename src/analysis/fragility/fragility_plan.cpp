@@ -243,12 +243,12 @@ void choose_sizes(FragilityPlan& plan, std::size_t ways, const FragilitySizes& s
 void check_scale(FragilityPlan& plan, const std::filesystem::path& file)
 {
     const SuiteInput limits = plan.input.suite.value_or(SuiteInput{});
-    std::vector<std::pair<std::size_t, std::size_t>> told;
+    std::vector<std::pair<std::size_t, std::size_t>> at_levels;
     for (const FragilitySample& s : plan.samples) {
         if (!(s.factor > limits.max_scale)) continue;
         const std::pair at(s.record, s.level);
-        if (std::find(told.begin(), told.end(), at) != told.end()) continue;
-        told.push_back(at);
+        if (std::find(at_levels.begin(), at_levels.end(), at) != at_levels.end()) continue;
+        at_levels.push_back(at);
         plan.scaled_far.push_back(fmt::format("{}: factor {:.3g} at level {}", (*plan.suite.pairs)[s.record].files.name,
                                               s.factor, s.level + 1));
     }

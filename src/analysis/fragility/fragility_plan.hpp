@@ -77,7 +77,7 @@ struct ShakingSuite {
 /// One draw of all variables.
 struct FragilityDraw {
     std::vector<KeyValue> values;   ///< in the order of the variables; of a factor the factor
-    std::vector<KeyChange> changes; ///< what SceneText::with() is told
+    std::vector<KeyChange> changes; ///< for SceneText::with()
 };
 
 /// One run: a draw of the variables, a record, a level.

@@ -6,7 +6,7 @@
 namespace damslip {
 
 /// Intensity of one horizontal component as it shakes the dam [SI]. @param first_period  T_1 of the dam [s], for SA(T1)
-/// @param index  asked first, told what it lacks
+/// @param index  asked first; what it lacks is added
 double intensity_of(const Record& horizontal, const IntensityInput& intensity, double first_period,
                     records::SuiteIndex& index);
 

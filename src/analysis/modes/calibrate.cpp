@@ -19,8 +19,8 @@ namespace {
 
 /// What a fit may come to [Pa]: rubble masonry has 1 GPa and more, weathered rock 0.1 GPa.
 constexpr double least_modulus_dam = 1e9, least_modulus_rock = 1e8, largest_modulus = 1e12;
-constexpr double told =
-    std::numbers::ln2; ///< a modulus whose logarithm is known to less than this is told by the frequencies
+constexpr double determined =
+    std::numbers::ln2; ///< a modulus whose logarithm is known to less than this follows from the frequencies
 
 [[noreturn]] void refuse_scene(const Scene& scene, std::string problem, std::string expected, std::string fix)
 {
@@ -183,7 +183,7 @@ bool tells_rock(const Eigen::MatrixX2d& j, double scatter)
 {
     if (j.rows() < 2 || j.col(1).isZero()) return false;
     const double deviation = std::sqrt(covariance(j, 2, scatter)(1, 1));
-    return std::isfinite(deviation) && deviation < told;
+    return std::isfinite(deviation) && deviation < determined;
 }
 
 /// Damping ratio of the first resonance of the dam's deflection, everything included: that of the oscillator on a steady background,

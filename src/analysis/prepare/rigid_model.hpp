@@ -83,7 +83,7 @@ RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& s
 /// sliding_at_end.
 void check_length(const RigidModel& model, sliding::SlideResult& result);
 
-/// The one place where it is told that the block tips before it slides: Status::rocks_first in place of at_rest and
+/// The one place that finds that the block tips before it slides: Status::rocks_first in place of at_rest and
 /// sliding_at_end where the acceleration that tips it lies below its yield and the motion reaches it.
 /// About its toe only: rocking upstream, about the heel, is a premise of the verdict (broken_premises), as the dam slides
 /// downstream all the same.

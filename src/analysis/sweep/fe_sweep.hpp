@@ -61,7 +61,7 @@ void check_fe_scenes(const Sweep& inputs);
 /// Takes finished runs as soon as they are there, by the ids of their rows; called from several threads.
 using TakeRuns = std::function<void(std::span<const std::size_t> ids, std::span<const fe2d::RunResult> runs)>;
 
-/// Told the rows of a group before they go through the earthquake; called from several threads.
+/// Called with the rows of a group before they go through the earthquake; called from several threads.
 using BeginRows = std::function<void(std::span<const std::size_t> ids)>;
 
 /// Runs all groups. Mesh, matrices and condensed rock of a variant and contact law are made once, when the first of its

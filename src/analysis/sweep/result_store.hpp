@@ -32,10 +32,10 @@ struct RowResults {
     std::string status;              ///< of the list, or a remark of the method
     std::optional<double> lift_slip; ///< [m]
     // Of finite elements, see fe2d::RunOutFigures.
-    std::optional<double> walked;               ///< at least, by a dam that goes on by itself [m]
+    std::optional<double> at_least;               ///< at least, by a dam that goes on by itself [m]
     std::optional<double> thrust_over_friction; ///< [-]
-    std::optional<double> hops;
-    std::optional<double> hop_frequency;              ///< [Hz]
+    std::optional<double> lift_offs;
+    std::optional<double> lift_off_frequency;              ///< [Hz]
     std::optional<double> unloaded_share;             ///< [-]
     std::optional<double> end_rate;                   ///< [m/s]
     std::optional<double> slip_shaking, slip_at_rest; ///< [m]
@@ -66,10 +66,10 @@ inline constexpr auto row_numbers =
                               {"truncation_error_m", &RowResults::truncation_error},
                               {"critical_friction", &RowResults::critical_friction},
                               {"lift_joint_slip_m", &RowResults::lift_slip},
-                              {"walked_at_least_m", &RowResults::walked},
+                              {"walked_at_least_m", &RowResults::at_least},
                               {"thrust_over_friction", &RowResults::thrust_over_friction},
-                              {"hops", &RowResults::hops},
-                              {"hop_frequency_Hz", &RowResults::hop_frequency},
+                              {"hops", &RowResults::lift_offs},
+                              {"hop_frequency_Hz", &RowResults::lift_off_frequency},
                               {"unloaded_share", &RowResults::unloaded_share},
                               {"end_rate_m_s", &RowResults::end_rate},
                               {"shaking_slip_m", &RowResults::slip_shaking},

@@ -161,13 +161,13 @@ FinishedRow fe_row(std::size_t id, const fe2d::RunResult& run, bool with_history
     results.status = word(run.status);
     for (const fe2d::LiftResult& lift : run.lifts)
         if (results.slip) results.lift_slip = std::max(results.lift_slip.value_or(0.0), lift.largest_slip);
-    results.walked = walked_at_least(run.status, run.slip);
+    results.at_least = slid_at_least(run.status, run.slip);
     add_events_and_anchors(run.events, run.anchors, results);
     if (!run.history.time.empty()) { // it was shaken
         const fe2d::RunOutFigures& f = run.run_out;
         if (std::isfinite(f.thrust_over_friction)) results.thrust_over_friction = f.thrust_over_friction;
-        results.hops = f.hops;
-        results.hop_frequency = f.hop_frequency;
+        results.lift_offs = f.lift_offs;
+        results.lift_off_frequency = f.lift_off_frequency;
         results.unloaded_share = f.unloaded_share;
         results.end_rate = f.rate;
         results.slip_shaking = f.slip_shaking;

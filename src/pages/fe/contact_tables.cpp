@@ -256,9 +256,9 @@ RunColumns::RunColumns(const std::optional<double>& allowable)
       seconds{{"seconds", "time", "s", 3},
               [](const ContactRun& r) { return r.fe.seconds.statics + r.fe.seconds.dynamics; }},
       slid_at_least{{"walked_at_least_m", "slid at least", "m", 5},
-                    [](const ContactRun& r) { return optional_cell(walked_at_least(r.fe.status, r.fe.slip)); }},
+                    [](const ContactRun& r) { return optional_cell(slid_at_least(r.fe.status, r.fe.slip)); }},
       slip_in_words{ranking(slip.column, "slip at end"), [of_slip = slip.value](const ContactRun& r) {
-                        const std::optional<double> at_least = walked_at_least(r.fe.status, r.fe.slip);
+                        const std::optional<double> at_least = slid_at_least(r.fe.status, r.fe.slip);
                         return at_least ? Cell(fmt::format("at least {:.4g}", 1e3 * *at_least)) : of_slip(r);
                     }}
 {
@@ -610,8 +610,8 @@ Table run_out_table(const std::vector<ContactRun>& runs)
          {{"end_rate_mm_s", "rate at end", "mm/s", 3}, figure(&F::rate, 1e3)},
          {{"thrust_over_friction", "χ", "–", 3}, figure(&F::thrust_over_friction)},
          {{"energy_kept_J_m", "ΔE", "J/m", 3}, figure(&F::energy_kept)},
-         {{"hops", "lift-offs"}, [](const R& r) { return r.fe.run_out.hops; }},
-         {{"hop_frequency_Hz", "lift-offs", "Hz", 3}, figure(&F::hop_frequency)},
+         {{"hops", "lift-offs"}, [](const R& r) { return r.fe.run_out.lift_offs; }},
+         {{"hop_frequency_Hz", "lift-offs", "Hz", 3}, figure(&F::lift_off_frequency)},
          {{"unloaded_share", "unloaded", "–", 3}, figure(&F::unloaded_share)},
          {{"sliding_factor", "FS at rest", "–", 4}, figure(&F::sliding_factor)}},
         runs | std::views::filter([](const R& r) { return !r.fe.history.time.empty(); }),

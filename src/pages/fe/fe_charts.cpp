@@ -457,7 +457,7 @@ std::vector<ColumnOf<std::size_t>> slide_columns(const fe2d::SlideHistory& h)
 {
     if (h.rate.empty()) return {};
     return {{{"thrust_over_friction", "χ", "–", 4}, of(h.thrust_over_friction)},
-            {{"hops", "hops", "", 6}, of(h.hops)},
+            {{"hops", "lift-offs", "", 6}, of(h.lift_offs)},
             {{"unloaded_share", "unloaded", "–", 4}, of(h.unloaded_share)},
             {{"slip_rate_m_s", "slip rate", "m/s", 4}, of(h.rate)}};
 }

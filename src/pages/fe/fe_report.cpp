@@ -195,8 +195,8 @@ std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& sce
         const std::optional<double> known = reported(status, std::abs(slip));
         return known ? fmt::format("{:.4g} mm", *known / mm) : word(status);
     };
-    const std::optional<double> walked = walked_at_least(worst.fe.status, worst.fe.slip);
-    list.emplace_back("Largest slip on the way, FE", walked ? fmt::format("at least {:.4g} mm", *walked / mm)
+    const std::optional<double> at_least = slid_at_least(worst.fe.status, worst.fe.slip);
+    list.emplace_back("Largest slip on the way, FE", at_least ? fmt::format("at least {:.4g} mm", *at_least / mm)
                                                             : millimetres(worst.fe.status, worst.fe.max_slip));
     list.emplace_back("Rock", rock_words(scene));
     list.emplace_back("Worst run", worst.label());
@@ -398,10 +398,10 @@ std::vector<std::string> run_sentences(const std::vector<ContactRun>& runs)
 {
     const auto by_itself = [](const ContactRun& r) { return r.fe.status == Status::self_excited; };
     const auto first = std::find_if(runs.begin(), runs.end(), by_itself);
-    const ContactRun* told = first == runs.end() ? nullptr : by_itself(worst_of(runs)) ? &worst_of(runs) : &*first;
+    const ContactRun* in_headline = first == runs.end() ? nullptr : by_itself(worst_of(runs)) ? &worst_of(runs) : &*first;
     std::vector<std::string> sentences;
     for (const ContactRun& r : runs)
-        sentences.push_back(by_itself(r) && &r != told
+        sentences.push_back(by_itself(r) && &r != in_headline
                                 ? fmt::format("Self-excited, too: slid at least {:.4g} mm.", 1e3 * std::abs(r.fe.slip))
                                 : r.fe.message);
     return sentences;
@@ -413,7 +413,7 @@ void add_run_messages(const std::vector<ContactRun>& runs, std::vector<std::stri
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const ContactRun& r = runs[i];
         if (r.fe.status != Status::at_rest) messages.push_back(r.label() + ": " + sentences[i]);
-        if (has_slip(r) && r.fe.run_out.walked())
+        if (has_slip(r) && r.fe.run_out.ratchets())
             messages.push_back(r.label() + ": " + fe2d::walked_sentence(r.fe.slip, r.fe.run_out));
         for (const AnchorOutcome& anchor : r.fe.anchors)
             if (anchor.history.snapped_at)
@@ -493,7 +493,7 @@ nlohmann::ordered_json worst_json(const std::vector<ContactRun>& runs, const std
 {
     if (runs.empty()) return nullptr;
     const ContactRun& worst = worst_of(runs);
-    const std::optional<double> walked = walked_at_least(worst.fe.status, worst.fe.slip);
+    const std::optional<double> at_least = slid_at_least(worst.fe.status, worst.fe.slip);
     const auto number = [&](double metres, double unit) {
         const std::optional<double> known = reported(worst.fe.status, metres);
         return known ? nlohmann::ordered_json(*known / unit) : nlohmann::ordered_json();
@@ -502,7 +502,7 @@ nlohmann::ordered_json worst_json(const std::vector<ContactRun>& runs, const std
             {"polarity", worst.polarity},
             {"status", word(worst.fe.status)},
             {"max_slip_m", number(worst.fe.max_slip, 1.0)},
-            {"walked_at_least_m", walked ? nlohmann::ordered_json(*walked) : nlohmann::ordered_json()},
+            {"walked_at_least_m", at_least ? nlohmann::ordered_json(*at_least) : nlohmann::ordered_json()},
             {"total_error_mm", number(slip_error(worst).total, units::mm)},
             {"verdict", word(verdict_of(worst, allowable))}};
 }
