@@ -796,9 +796,8 @@ const toml::node* find(const toml::table& scene, const Named& named)
         node = table ? entry_of(*table, part) : nullptr;
         if (!node) return nullptr;
     }
-    if (const toml::array* list = node->as_array(); list && list->size() > named.entry && list->is_array_of_tables())
-        return list->get(named.entry);
-    return node;
+    const toml::array* const list = node->as_array();
+    return list && list->is_array_of_tables() ? list->get(named.entry) : node;
 }
 
 } // namespace

@@ -50,12 +50,12 @@ TEST(Scene, AMessageWithoutALineGetsThatOfItsKey)
     const auto line = [&](const std::string& problem, const std::string& fix = "") {
         return with_line(Diagnostic{file.string(), 0, 0, problem, "", fix}).line;
     };
-    EXPECT_EQ(line("contact.sliding = \"finite\" with [lifts]."), 10);
-    EXPECT_EQ(line("reservoir.level is above."), 12); // with its unit in the file
-    EXPECT_EQ(line("the dam, see [reservoir], is dry."), 11);
-    EXPECT_EQ(line("seam[2] \"B\" ends there."), 15);
-    EXPECT_EQ(line("seam[2].exit is unknown."), 17);
-    EXPECT_EQ(line("[[seam]] is not followed."), 13);
+    EXPECT_EQ(line("contact.sliding = \"finite\" with [lifts]."), 11);
+    EXPECT_EQ(line("reservoir.level is above."), 13); // with its unit in the file
+    EXPECT_EQ(line("the dam, see [reservoir], is dry."), 12);
+    EXPECT_EQ(line("seam[2] \"B\" ends there."), 16);
+    EXPECT_EQ(line("seam[2].exit is unknown."), 18);
+    EXPECT_EQ(line("[[seam]] is not followed."), 14);
     EXPECT_EQ(line("nothing is found.", "write it in [dam]"), 7);
     EXPECT_EQ(line("no.such key, nor [uplift] e.g. 3.5 of seam[7]."), 0);
     EXPECT_EQ(with_line(Diagnostic{file.string(), 3, 0, "contact.sliding"}).line, 3); // it has one

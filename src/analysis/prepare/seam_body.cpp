@@ -81,12 +81,20 @@ const Obstacle obstacles[] = {
      "give a path that is straight up to the toe"},
 };
 
+/// In the scene's list, from 1.
+std::size_t place_of(const Scene& scene, const Seam& seam)
+{
+    std::size_t place = 1;
+    while (place < scene.seams.size() && scene.seams[place - 1].name != seam.name) ++place;
+    return place;
+}
+
 void check(const Scene& scene, const Seam& seam)
 {
     for (const Obstacle& o : obstacles)
         if (o.there(scene, seam))
             throw InputError(Diagnostic{scene.file.string(), 0, 0,
-                                        fmt::format("seam[{}] \"{}\" by finite elements (--plane): {}.", &seam - scene.seams.data() + 1, seam.name, o.what),
+                                        fmt::format("seam[{}] \"{}\" by finite elements (--plane): {}.", place_of(scene, seam), seam.name, o.what),
                                         o.expected, o.fix});
 }
 
