@@ -256,7 +256,7 @@ RunColumns::RunColumns(const std::optional<double>& allowable)
       seconds{{"seconds", "time", "s", 3},
               [](const ContactRun& r) { return r.fe.seconds.statics + r.fe.seconds.dynamics; }},
       slid_at_least{{"walked_at_least_m", "slid at least", "m", 5},
-                    [](const ContactRun& r) { return optional_cell(slid_at_least(r.fe.status, r.fe.slip)); }},
+                    [](const ContactRun& r) { return optional_cell(damslip::slid_at_least(r.fe.status, r.fe.slip)); }},
       slip_in_words{ranking(slip.column, "slip at end"), [of_slip = slip.value](const ContactRun& r) {
                         const std::optional<double> at_least = damslip::slid_at_least(r.fe.status, r.fe.slip);
                         return at_least ? Cell(fmt::format("at least {:.4g}", 1e3 * *at_least)) : of_slip(r);
