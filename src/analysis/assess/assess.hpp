@@ -75,7 +75,7 @@ enum class AssessPart { rigid_block, flexible_block, finite_elements, spectrum, 
 struct PlannedPart {
     AssessPart part = AssessPart::rigid_block;
     std::size_t runs = 0;                  ///< motions that it follows; variants: one run each
-    std::optional<double> seconds;         ///< wall time, from what a short piece of it took here; none: not known
+    std::optional<double> seconds = {};    ///< wall time, from what a short piece of it took here; none: not known
     std::string left_out = {};             ///< why it cannot run; empty: it can
     bool fits = true;                      ///< the budget holds it and all before it
 };
