@@ -64,6 +64,16 @@ def in_pipe(words):
     return run.returncode, run.stdout, run.stderr
 
 
+def terminals():
+    """A system folder without devpts has none; then the texts of pipes are checked alone."""
+    try:
+        for end in pty.openpty():
+            os.close(end)
+        return True
+    except OSError:
+        return False
+
+
 def on_terminal(words):
     """Output and talk on one terminal of 110 columns, without what progress drew over."""
     master, slave = pty.openpty()
@@ -120,8 +130,10 @@ def check(name, command, with_golden):
     check_shape(name, answer)
     if not quick:  # finite-element runs: once
         return compare(name, f"$ damslip {command}\n{answer}") if with_golden else None
-    if with_golden and on_terminal(words) != answer:
+    if with_golden and terminal and on_terminal(words) != answer:
         fail(name, "a terminal shows another text than a pipe")
+    if rows and not terminal:
+        return compare(name, f"$ damslip {command}\n{answer}")
     shown = on_terminal([*words, "-q"]) if rows else in_pipe([*words, "-q"])[1]
     if shown.count("\n") != 1 or not shown.strip() or len(shown) > COLUMNS + 1:
         fail(name, f"-q: {shown!r}")
@@ -142,6 +154,7 @@ def compare(name, text):
         fail(name, "another text than before:\n" + "\n".join(difflib.unified_diff(old, text.split("\n"), lineterm="")))
 
 
+terminal = terminals()
 for name, command in COMMANDS.items():
     if (name in LONG) == long:
         check(name, command, True)
