@@ -73,14 +73,7 @@ def by_office(file):
         with zipfile.ZipFile(file) as full, zipfile.ZipFile(bare, "w") as without:
             for part in full.namelist():
                 without.writestr(part, re.sub(rb"(</f>)<v>[^<]*</v>", rb"\1", full.read(part)))
-        profile = pathlib.Path(folder) / "profile" / "user"
-        profile.mkdir(parents=True)
-        (profile / "registrymodifications.xcu").write_text(
-            '<?xml version="1.0" encoding="UTF-8"?><oor:items xmlns:oor="http://openoffice.org/2001/registry" '
-            'xmlns:xs="http://www.w3.org/2001/XMLSchema" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance">'
-            '<item oor:path="/org.openoffice.Office.Calc/Formula/Load"><prop oor:name="OOXMLRecalcMode" oor:op="fuse">'
-            "<value>0</value></prop></item></oor:items>")
-        subprocess.run(["soffice", f"-env:UserInstallation=file://{profile.parent}", "--headless", "--convert-to", "xlsx:Calc MS Excel 2007 XML",
+        subprocess.run(["soffice", f"-env:UserInstallation=file://{folder}/profile", "--headless", "--convert-to", "xlsx:Calc MS Excel 2007 XML",
                         "--outdir", folder, str(bare)], check=True, capture_output=True)
         return {name: {cell: value for cell, (_, value) in cells.items()}
                 for name, cells in sheets(pathlib.Path(folder) / file.name).items()}
