@@ -138,6 +138,8 @@ int run_contact(const FeArguments& arguments, const Ready& prepared, const Spect
     if (!instants.empty()) {
         write_base_sheets(arguments.sheet, base_strength(ready.scene), instants);
         name_report(arguments.sheet, streams);
+    } else if (!arguments.sheet.empty()) {
+        streams.remark("note: no workbook is written, for no run came to its earthquake");
     }
     return runs.size() == all.whole() ? exit_code_of(runs) : exit_no_answer;
 }

@@ -72,16 +72,6 @@ std::vector<RecordPair> burst(double pga)
     return {pair};
 }
 
-ModelLevel plain(ModelLevelWater water, int halvings, double mesh)
-{
-    ModelLevel model_level;
-    model_level.family = ModelLevelFamily::finite_elements;
-    model_level.water = water;
-    model_level.halvings = halvings;
-    model_level.mesh = mesh;
-    return model_level;
-}
-
 struct TrueSlip {
     double value = 0.0;   ///< [m]
     double scatter = 0.0; ///< what steps twice as long change: errors below it are not known [m]
@@ -94,9 +84,9 @@ TrueSlip true_slip(const KnownScene& known, const ModelLevelRunner& runner)
         const ModelLevelResult result = runner.run(model_level);
         return result.done() ? result.slip.front() : std::nan("");
     };
-    if (known.meshes) return {slip(plain(known.water, 4, 0.125)), 0.0};
-    const double finest = slip(plain(known.water, 8, 1.0));
-    return {finest, std::abs(slip(plain(known.water, 7, 1.0)) - finest)};
+    if (known.meshes) return {slip(fe_model_level(known.water, 4, 0.125)), 0.0};
+    const double finest = slip(fe_model_level(known.water, 8, 1.0));
+    return {finest, std::abs(slip(fe_model_level(known.water, 7, 1.0)) - finest)};
 }
 
 std::vector<ModelLevelResult> run_hierarchy(const KnownScene& known, const ModelLevelRunner& runner)

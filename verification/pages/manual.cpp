@@ -13,7 +13,6 @@ namespace damslip::pages {
 namespace {
 
 using verification::Check;
-using verification::Measure;
 
 /// Figures that others printed: modes, factors, slips, coefficients.
 const std::set<std::string>& published_cases()
@@ -137,21 +136,6 @@ Table case_table(const std::vector<CaseOutcome>& outcomes)
                        outcomes);
 }
 
-std::string allowed(const Check& c)
-{
-    switch (c.measure) {
-    case Measure::relative:
-        return fmt::format("± {:.2g} of it", c.tolerance);
-    case Measure::absolute:
-        return fmt::format("± {:.2g}", c.tolerance);
-    case Measure::upper_bound:
-        return "at most";
-    case Measure::lower_bound:
-        return "at least";
-    }
-    return "";
-}
-
 /// Reference and tolerance, without any value of ours.
 Table reference_table(const CaseOutcome& o)
 {
@@ -159,7 +143,7 @@ Table reference_table(const CaseOutcome& o)
                            {{{"quantity", "quantity"}, &Check::quantity},
                             {{"unit", "unit"}, &Check::unit},
                             {{"reference", "reference", "", 7}, &Check::expected},
-                            {{"allowed", "allowed"}, [](const Check& c) { return allowed(c); }},
+                            {{"allowed", "allowed"}, &tolerance_text},
                             {{"verdict", "verdict"}, [](const Check& c) { return c.passed() ? "PASS" : "FAIL"; }}},
                            o.checks);
 }

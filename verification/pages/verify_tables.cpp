@@ -12,8 +12,6 @@ using verification::Case;
 using verification::Check;
 using verification::Measure;
 
-namespace {
-
 std::string tolerance_text(const Check& check)
 {
     switch (check.measure) {
@@ -28,8 +26,6 @@ std::string tolerance_text(const Check& check)
     }
     return "";
 }
-
-} // namespace
 
 Table check_table(const std::vector<CaseOutcome>& outcomes)
 {

@@ -24,6 +24,7 @@ struct HardOutcome {
     bool passed() const { return hard::passed(*subject, result); }
 };
 
+std::string tolerance_text(const verification::Check& check); ///< "1e-09 rel", "0.001 abs", "at most", "at least"
 Table check_table(const std::vector<CaseOutcome>& outcomes);
 Table hard_table(const std::vector<HardOutcome>& outcomes);
 

@@ -25,16 +25,6 @@ const ModelLevelResult* find(const std::vector<ModelLevelResult>& results, const
     return at == results.end() ? nullptr : &*at;
 }
 
-ModelLevel fe_model_level(ModelLevelWater water, int halvings, double mesh = 1.0)
-{
-    ModelLevel model_level;
-    model_level.family = ModelLevelFamily::finite_elements;
-    model_level.water = water;
-    model_level.halvings = halvings;
-    model_level.mesh = mesh;
-    return model_level;
-}
-
 bool of_model(const ModelLevelResult& r, ModelLevelWater water)
 {
     return r.done() && r.model_level.family == ModelLevelFamily::finite_elements && r.model_level.water == water && r.model_level.plain();

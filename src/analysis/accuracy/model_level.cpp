@@ -103,6 +103,16 @@ std::optional<ModelLevel> parse_finite_elements(std::string_view model, std::str
 
 } // namespace
 
+ModelLevel fe_model_level(ModelLevelWater water, int halvings, double mesh)
+{
+    ModelLevel model_level;
+    model_level.family = ModelLevelFamily::finite_elements;
+    model_level.water = water;
+    model_level.halvings = halvings;
+    model_level.mesh = mesh;
+    return model_level;
+}
+
 std::string model_level_id(const ModelLevel& model_level)
 {
     switch (model_level.family) {

@@ -52,6 +52,9 @@ struct ModelLevel {
     bool operator==(const ModelLevel&) const = default;
 };
 
+/// Finite elements with steps of dt/2^halvings. @param mesh  element sizes over the scene's [-]
+ModelLevel fe_model_level(ModelLevelWater water, int halvings, double mesh = 1.0);
+
 /// One word without blanks: "regression:jibson-1998", "rigid:h+v", "rigid:h+v,rocking", "fe-acoustic:dt/4,h/2", "fe-acoustic:dt/4,2h,q8",
 /// "fe-added-mass:dt/4,modes=12".
 std::string model_level_id(const ModelLevel& model_level);

@@ -2,6 +2,7 @@
 
 #include "analysis/fe/mesh_error.hpp"
 #include "analysis/prepare/flexible_mass.hpp"
+#include "analysis/prepare/plane_model.hpp"
 #include "core/input_error.hpp"
 #include "scene/rock_mass.hpp"
 
@@ -188,10 +189,13 @@ double price_of_flexible(const Ready& ready)
     return price_of(ready, [&](const GroundMotion& motion) { slide_flexible(ready.scene, *block, model, motion, 1); });
 }
 
+/// Of the base, and of the lifts and seams that the scene names.
 double price_of_rigid(const Ready& ready)
 {
-    const RigidModel model = ready.rigid_model();
-    return price_of(ready, [&](const GroundMotion& motion) { slide_model(ready.scene, model, motion, 1); });
+    const std::vector<RigidModel> models = all_models(ready);
+    return price_of(ready, [&](const GroundMotion& motion) {
+        for (const RigidModel& model : models) slide_model(ready.scene, model, motion, 1);
+    });
 }
 
 constexpr double cheap =
@@ -350,8 +354,8 @@ void run_variants(BudgetWatch& watch, Assessment& a)
     }
 }
 
-/// Two records' worth of the finite elements' whole and half steps, and the coarser mesh of the mesh error.
-constexpr double passes = 3.0, with_coarser_mesh = 1.3;
+constexpr double passes = 3.0;            ///< price of a run over that of its pass with whole steps: half steps cost twice as much
+constexpr double with_coarser_mesh = 1.3; ///< price of the runs with that of the mesh error over their own
 
 /// Wall time of one finite-element run without a second mesh, by its longest record [s].
 double price_of_one(const ContactCost& cost)
@@ -365,7 +369,6 @@ double price_of_one(const ContactCost& cost)
 void plan_finite_elements(const Scene& given, const Watch& watch, WorkPlan& plan)
 {
     PlannedPart runs{AssessPart::finite_elements}, spectrum{AssessPart::spectrum}, variants{AssessPart::variants};
-    std::vector<LeftOut> left_out;
     try {
         plan.fe = prepare(scene_of_finite_elements(given, plan.rock_change), Method::finite_elements,
                           load_records(given, Method::finite_elements), {.joints_of_lifts = true, .stop = watch.stop()});

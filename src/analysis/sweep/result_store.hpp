@@ -32,10 +32,10 @@ struct RowResults {
     std::string status;              ///< of the list, or a remark of the method
     std::optional<double> lift_slip; ///< [m]
     // Of finite elements, see fe2d::RunOutFigures.
-    std::optional<double> at_least;               ///< at least, by a dam that goes on by itself [m]
+    std::optional<double> slid_at_least;        ///< of a dam whose sliding feeds itself: its slip when the run ended [m]
     std::optional<double> thrust_over_friction; ///< [-]
     std::optional<double> lift_offs;
-    std::optional<double> lift_off_frequency;              ///< [Hz]
+    std::optional<double> lift_off_frequency;         ///< [Hz]
     std::optional<double> unloaded_share;             ///< [-]
     std::optional<double> end_rate;                   ///< [m/s]
     std::optional<double> slip_shaking, slip_at_rest; ///< [m]
@@ -49,7 +49,8 @@ struct RowResults {
     friend bool operator==(const RowResults&, const RowResults&) = default;
 };
 
-/// A number of a row and its column, in the database and in the CSV.
+/// A number of a row and its column, in the database and in the CSV. The names of columns stay while those of members follow
+/// docs/symbols.md: a sweep that an earlier version stopped goes on, and questions to databases still work.
 struct RowNumber {
     const char* column;
     std::optional<double> RowResults::*value;
@@ -66,7 +67,7 @@ inline constexpr auto row_numbers =
                               {"truncation_error_m", &RowResults::truncation_error},
                               {"critical_friction", &RowResults::critical_friction},
                               {"lift_joint_slip_m", &RowResults::lift_slip},
-                              {"walked_at_least_m", &RowResults::at_least},
+                              {"walked_at_least_m", &RowResults::slid_at_least},
                               {"thrust_over_friction", &RowResults::thrust_over_friction},
                               {"hops", &RowResults::lift_offs},
                               {"hop_frequency_Hz", &RowResults::lift_off_frequency},

@@ -161,7 +161,7 @@ FinishedRow fe_row(std::size_t id, const fe2d::RunResult& run, bool with_history
     results.status = word(run.status);
     for (const fe2d::LiftResult& lift : run.lifts)
         if (results.slip) results.lift_slip = std::max(results.lift_slip.value_or(0.0), lift.largest_slip);
-    results.at_least = slid_at_least(run.status, run.slip);
+    results.slid_at_least = slid_at_least(run.status, run.slip);
     add_events_and_anchors(run.events, run.anchors, results);
     if (!run.history.time.empty()) { // it was shaken
         const fe2d::RunOutFigures& f = run.run_out;

@@ -82,6 +82,9 @@ std::string cost(const WorkPlan& plan)
 {
     std::string text = fmt::format("About {:.2g} s of the budget of {:.4g} s, estimated from short pieces on this machine.",
                                    plan.seconds(), plan.budget);
+    for (const PlannedPart& p : plan.parts)
+        if (p.left_out.empty() && !p.seconds)
+            text += fmt::format(" Not estimated: {}, for the dam does not stand before the earthquake.", words_of(p.part).model);
     const auto over = std::count_if(plan.parts.begin(), plan.parts.end(),
                                     [](const PlannedPart& p) { return p.left_out.empty() && !p.fits; });
     if (over > 0)

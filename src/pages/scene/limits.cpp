@@ -73,6 +73,9 @@ std::vector<Limit> element_limits(const Scene& scene)
 Limit slip_plane_limit(const Scene& scene, Method method)
 {
     if (scene.wedge) return {"slip plane", "the planes that are given", "another plane is weaker", "give it as a scene of its own"};
+    if (!scene.planes.slides_on.empty())
+        return {"slip plane", "the seam \"" + scene.planes.slides_on + "\" alone", "the base, a lift or another seam is weaker",
+                "run them without --plane, and each seam with its own"};
     std::string planes = "the base";
     if (scene.lifts || (method == Method::finite_elements && !scene.lift_joints.empty())) planes += ", the lift joints";
     if (!scene.seams.empty())

@@ -33,7 +33,7 @@ BaseInstant worst_instant(const ContactRun& run, const Contact& strength)
             worst = row;
     }
     BaseInstant out{run.label(), h.time[worst], h.slip[worst], h.normal_force[worst], h.shear_force[worst], h.normal_position[worst],
-                    factor(worst), {}, {}, {}, {}};
+                    {}, {}, {}, {}};
     for (std::size_t i = 0; i < pairs; ++i) {
         out.distance.push_back(run.fe.pair_distance[static_cast<Eigen::Index>(i)]);
         out.area.push_back(run.fe.pair_area[static_cast<Eigen::Index>(i)]);
@@ -68,12 +68,13 @@ void write_base_sheets(const std::filesystem::path& file, const Contact& strengt
         }
         book.title("Sums: by the cells above, by the program, their difference");
         book.note("Pairs are kept with seven digits: differences of some 1e-7 are theirs.");
-        book.head({"quantity", "this sheet", "program", "difference", "unit"});
         const Formula n = book.put("N'", sum(normal), "N/m"), t = book.put("T", sum(shear), "N/m");
+        book.put("sliding factor with the peak strength", (cohesion * sum(bonded) + friction * max(0.0, n)) / abs(t), "-",
+                 "of this sheet alone: (c A' + mu N')/|T|, A' the length under pressure");
+        book.head({"quantity", "this sheet", "program", "difference", "unit"});
         book.compare("N'", n, at.normal_force, "N/m");
         book.compare("T", t, at.shear_force, "N/m");
         book.compare("N' from the heel", sum(moment) / n, at.position, "m");
-        book.compare("sliding factor", (cohesion * sum(bonded) + friction * max(0.0, n)) / abs(t), at.factor, "-");
     }
     book.close();
 }

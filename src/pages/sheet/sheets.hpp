@@ -24,11 +24,10 @@ struct BaseInstant {
     std::string label; ///< "rock_1.0_h, polarity +1"
     double time = 0.0, slip = 0.0;                          ///< [s], [m]
     double normal_force = 0.0, shear_force = 0.0, position = 0.0; ///< RunHistory, [N/m], [N/m], from the heel [m]
-    double factor = 0.0;                                    ///< (c A' + mu N')/|T| [-]
     std::vector<double> distance, area, pressure, shear;    ///< of the pairs [m], [m], [Pa], [Pa]
 };
 
-/// The instant with the least factor of sliding; while the base slides, where it is 1, the one with the largest shear.
+/// The instant with the least (c A' + mu N')/|T|, A' the length under pressure, with the peak strength; while the base slides, where it is 1, the one with the largest shear.
 /// @pre the history holds the values of the pairs
 BaseInstant worst_instant(const ContactRun& run, const Contact& strength);
 

@@ -88,7 +88,7 @@ void Workbook::check_name(const std::filesystem::path& file)
 Workbook::Workbook(std::filesystem::path file) : file_(std::move(file)), sheet_(std::make_unique<Sheet>())
 {
     if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path());
-    sheet_->book = workbook_new(file_.c_str());
+    sheet_->book = workbook_new(part().c_str());
     lxw_doc_properties properties = {};
     properties.created = no_date;
     workbook_set_properties(sheet_->book, &properties);
@@ -100,7 +100,10 @@ Workbook::Workbook(std::filesystem::path file) : file_(std::move(file)), sheet_(
 
 Workbook::~Workbook()
 {
-    if (sheet_->book) workbook_close(sheet_->book);
+    if (!sheet_->book) return; // an exception ended it
+    workbook_close(sheet_->book);
+    std::error_code ignored;
+    std::filesystem::remove(part(), ignored);
 }
 
 void Workbook::begin(const std::string& wanted)
@@ -193,8 +196,12 @@ void Workbook::compare(const std::string& name, const Formula& of_sheet, double 
 void Workbook::close()
 {
     lxw_workbook* const book = std::exchange(sheet_->book, nullptr);
-    if (const lxw_error error = workbook_close(book); error != LXW_NO_ERROR)
-        throw InputError(Diagnostic{file_.string(), 0, 0, fmt::format("cannot be written: {}.", lxw_strerror(error)), {},
+    const lxw_error error = workbook_close(book);
+    std::error_code failed;
+    if (error == LXW_NO_ERROR) std::filesystem::rename(part(), file_, failed);
+    if (error != LXW_NO_ERROR || failed)
+        throw InputError(Diagnostic{file_.string(), 0, 0,
+                                    fmt::format("cannot be written: {}.", failed ? failed.message() : lxw_strerror(error)), {},
                                     "check the folder and its permissions"});
 }
 

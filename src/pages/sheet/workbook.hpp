@@ -65,11 +65,12 @@ public:
     /// What the program has beside what the sheet has, and their difference over the larger.
     void compare(const std::string& name, const Formula& of_sheet, double of_program, const std::string& unit);
 
-    void close(); ///< writes the file @throws InputError where it cannot be written
+    void close(); ///< writes the file, whole or not at all @throws InputError where it cannot be written
 
 private:
     struct Sheet;
     Formula cell(int column, const Formula& value);
+    std::filesystem::path part() const { return file_.string() + ".part"; } ///< until it is closed
     std::filesystem::path file_;
     std::unique_ptr<Sheet> sheet_;
     int row_ = 0;

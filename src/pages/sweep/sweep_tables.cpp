@@ -93,7 +93,7 @@ std::vector<ColumnOf<SweepLine>> columns(const Grid& grid, bool mean)
         {in_brief({"status", "status"}), [](const L& l) { return l.results.status.empty() ? Cell() : Cell(l.results.status); }},
         {{"lift_joint_slip_m", "lift joints", "m", 5}, given(&R::lift_slip)},
         {{"remark", "remark"}, remark},
-        {in_brief({"walked_at_least_m", "slid at least", "m", 5}), given(&R::at_least)},
+        {in_brief({"walked_at_least_m", "slid at least", "m", 5}), given(&R::slid_at_least)},
         {{"thrust_over_friction", "χ", "–", 3}, given(&R::thrust_over_friction)},
         {{"hops", "lift-offs"},
          [](const L& l) { return l.results.lift_offs ? Cell(std::llround(*l.results.lift_offs)) : Cell(); }},
