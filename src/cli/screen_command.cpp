@@ -68,8 +68,8 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
                      "delete --rocking");
     if (arguments.spectrum.wanted)
         need_section(given, "damslip screen --response-spectrum", "a wedge is rigid: leave the flag out");
-    if (!arguments.sheet.empty())
-        need_section(given, "damslip screen --sheet", "a wedge has no load combinations: leave the flag out");
+    if (!arguments.sheet.empty() && given.wedge)
+        refuse_usage("--sheet cannot take a [wedge]: it has no load combinations.", "a scene with a [section]", "delete --sheet");
     const std::vector<LevelSpectrum> spectra = given_spectra(arguments.spectrum);
     const Ready ready = prepare(given, Method::rigid_block, options);
     for (const std::string& warning : record_warnings(ready.records())) streams.remark("note: " + warning);

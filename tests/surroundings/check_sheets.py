@@ -184,5 +184,9 @@ with tempfile.TemporaryDirectory() as folder:
     again = folder / "again.xlsx"
     run("screen", root / "examples" / "own_dam.toml", "--rigid-only", "--sheet", again, "--quiet")
     assert again.read_bytes() == (folder / "own_dam.xlsx").read_bytes(), "the same scene gives the same bytes"
+    if pathlib.Path("/proc").exists():  # a folder that cannot be made
+        done = subprocess.run([program, "screen", "examples/own_dam.toml", "--rigid-only", "--sheet", "/proc/none/check.xlsx"], cwd=root,
+                              capture_output=True, text=True)
+        assert done.returncode == 3 and "/proc/none" in done.stderr and "fix:" in done.stderr, (done.returncode, done.stderr)
     done = subprocess.run([program, "screen", "examples/own_dam.toml", "--sheet", "check.ods"], cwd=root, capture_output=True, text=True)
     assert done.returncode == 2 and ".xlsx" in done.stderr, done.stderr

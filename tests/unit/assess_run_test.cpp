@@ -139,6 +139,17 @@ TEST_F(AssessRun, APlanSaysWhatTheBudgetDoesNotHold)
     EXPECT_NE(answer_of({"assess", scene(), "--budget", "0.001", "--plan", "--full"}).out.find("raise --budget"), std::string::npos);
 }
 
+// What cannot be estimated is no part of the price, and that is printed.
+TEST_F(AssessRun, ThePlanOfADamThatDoesNotStandSaysWhatIsNotEstimated)
+{
+    const Json plan = Json::parse(answer_of({"assess", scene("linear", "", 0.05), "--plan", "--json", "--quiet"}).out);
+    for (const Json& row : plan["models"])
+        EXPECT_EQ(row["fits"] == "not known", row["estimated_s"].is_null() && row["fits"] != "cannot run") << row;
+    const bool unknown = std::any_of(plan["models"].begin(), plan["models"].end(), [](const Json& row) { return row["fits"] == "not known"; });
+    EXPECT_EQ(answer_of({"assess", scene("linear", "", 0.05), "--plan", "--full"}).out.find("Not estimated") != std::string::npos, unknown);
+    EXPECT_TRUE(unknown);
+}
+
 // The block does not hold without an earthquake: no level has a slip, which is no pass.
 TEST_F(AssessRun, ADamThatDoesNotStandHasNoSlipAndFails)
 {

@@ -82,9 +82,11 @@ std::string cost(const WorkPlan& plan)
 {
     std::string text = fmt::format("About {:.2g} s of the budget of {:.4g} s, estimated from short pieces on this machine.",
                                    plan.seconds(), plan.budget);
+    std::string unknown;
     for (const PlannedPart& p : plan.parts)
-        if (p.left_out.empty() && !p.seconds)
-            text += fmt::format(" Not estimated: {}, for the dam does not stand before the earthquake.", words_of(p.part).model);
+        if (p.left_out.empty() && !p.seconds) unknown += (unknown.empty() ? "" : "; ") + std::string(words_of(p.part).model);
+    if (!unknown.empty())
+        text += " Not estimated, for the dam does not stand before the earthquake: " + unknown + ".";
     const auto over = std::count_if(plan.parts.begin(), plan.parts.end(),
                                     [](const PlannedPart& p) { return p.left_out.empty() && !p.fits; });
     if (over > 0)
@@ -141,7 +143,7 @@ Table work_plan_table(const WorkPlan& plan, const Assessment* done)
         {in_brief({"motions", "motions"}), [](const P& p) { return count_cell(p.runs); }},
         {in_brief({"estimated_s", "estimated", "s", 2}), [](const P& p) { return optional_cell(p.seconds); }},
         {in_brief({"fits", "fits"}), [](const P& p) {
-             return Cell(!p.left_out.empty() ? std::string("cannot run") : std::string(p.fits ? "yes" : "not whole"));
+             return !p.left_out.empty() ? "cannot run" : !p.seconds ? "not known" : p.fits ? "yes" : "not whole";
          }}};
     if (done) {
         columns.push_back({{"took_s", "took", "s", 2}, [done](const P& p) {

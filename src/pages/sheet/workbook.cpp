@@ -1,5 +1,6 @@
 #include "pages/sheet/workbook.hpp"
 
+#include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/text.hpp"
 
@@ -87,7 +88,7 @@ void Workbook::check_name(const std::filesystem::path& file)
 
 Workbook::Workbook(std::filesystem::path file) : file_(std::move(file)), sheet_(std::make_unique<Sheet>())
 {
-    if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path());
+    if (file_.has_parent_path()) make_folder(file_.parent_path());
     sheet_->book = workbook_new(part().c_str());
     lxw_doc_properties properties = {};
     properties.created = no_date;
