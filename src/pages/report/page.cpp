@@ -359,7 +359,7 @@ std::string by_columns(const Table& table, std::size_t labels)
 
 std::string table_html(const TablePart& part, const std::string& section)
 {
-    const Table& table = part.table;
+    const Table table = with_slips_in_millimetres(part.table);
     const std::string title = html_text(table.title);
     // The frame scrolls where the table is wider than the page, so it takes the keyboard's focus.
     std::string body = "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"" + title + "\"><table>\n" +

@@ -171,6 +171,18 @@ std::string text(const Table& table)
     return framed(table, aligned(lines, header, right, std::min(n, names)));
 }
 
+Table with_slips_in_millimetres(Table table)
+{
+    for (std::size_t j = 0; j < table.columns.size(); ++j) {
+        Column& column = table.columns[j];
+        if (column.unit != "m" || column.key.find("slip") == std::string::npos) continue;
+        column.unit = "mm";
+        for (std::vector<Cell>& row : table.rows)
+            if (double* value = std::get_if<double>(&row[j])) *value *= 1e3;
+    }
+    return table;
+}
+
 std::string texts(const std::vector<Table>& tables)
 {
     std::string all;

@@ -27,6 +27,9 @@ std::string text(const Table& table);
 /// With the verdict behind the first `names` columns, where it is seen first.
 Table verdict_after(Table table, std::size_t names);
 
+/// Slips that files hold in metres, in millimetres: one unit for one quantity where people read.
+Table with_slips_in_millimetres(Table table);
+
 /// Several, an empty line between them.
 std::string texts(const std::vector<Table>& tables);
 

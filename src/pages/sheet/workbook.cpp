@@ -119,6 +119,8 @@ void Workbook::begin(const std::string& wanted)
     const std::string plain = name;
     for (int n = 2; !sheet_->names.insert(small(name)).second; ++n) name = fmt::format("{} {}", plain, n);
     sheet_->page = workbook_add_worksheet(sheet_->book, name.c_str());
+    worksheet_set_landscape(sheet_->page);
+    worksheet_fit_to_pages(sheet_->page, 1, 0); // on paper: as wide as a page, as long as it is
     worksheet_set_column(sheet_->page, name_column, name_column, 44, nullptr);
     worksheet_set_column(sheet_->page, value_column, 9, 16, nullptr);
     row_ = 0;
