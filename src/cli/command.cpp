@@ -4,7 +4,6 @@
 #include "core/input_error.hpp"
 #include "core/text.hpp"
 #include "pages/report/json.hpp"
-#include "pages/sheet/workbook.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -151,8 +150,8 @@ void add_pdf(CLI::App& sub, std::filesystem::path& target)
 void add_sheet(CLI::App& sub, std::filesystem::path& target, const std::string& help)
 {
     sub.add_option("--sheet", target, help)->check([](const std::string& path) -> std::string {
-        pages::Workbook::check_name(path);
-        return output_to(OutputPath::file, "--sheet")(path);
+        check_sheet(path);
+        return {};
     });
 }
 

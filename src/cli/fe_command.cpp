@@ -136,7 +136,7 @@ int run_contact(const FeArguments& arguments, const Ready& prepared, const Spect
         contact_answer(shared, runs, messages, spread), arguments, ready.scene, spectrum, fields,
         [&] { return page->page(runs, messages, spread); }, streams);
     if (!instants.empty()) {
-        write_base_sheets(arguments.sheet, base_strength(ready.scene), instants);
+        write_sheet(arguments.sheet, [&](const auto& file) { write_base_sheets(file, base_strength(ready.scene), instants); });
         name_report(arguments.sheet, streams);
     } else if (!arguments.sheet.empty()) {
         streams.remark("note: no workbook is written, for no run came to its earthquake");
@@ -253,7 +253,7 @@ void fe_flags(CLI::App& sub, FeArguments& a)
         ->excludes(reduced);
     add_response_spectrum(sub, a.spectrum);
     add_pdf(sub, a.pdf);
-    add_sheet(sub, a.sheet, "workbook (.xlsx) of the forces on the base where each run is nearest to sliding");
+    add_sheet(sub, a.sheet, "workbook (.xlsx, .ods) of the forces on the base where each run is nearest to sliding");
     add_jobs(sub, a.jobs, "threads, for both polarities side by side; 0: all cores");
 }
 

@@ -100,7 +100,7 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
         name_report(arguments.pdf, streams);
     }
     if (!arguments.sheet.empty()) {
-        write_equilibrium_sheets(arguments.sheet, ready, s.combinations);
+        write_sheet(arguments.sheet, [&](const auto& file) { write_equilibrium_sheets(file, ready, s.combinations); });
         name_report(arguments.sheet, streams);
     }
     return std::max(statuses_of(s).exit_code(), s.elastic ? exit_code_of(s.elastic->runs) : exit_ok);
@@ -120,7 +120,7 @@ void screen_flags(CLI::App& sub, ScreenArguments& a)
     add_response_spectrum(sub, a.spectrum);
     add_out(sub, a.out, OutputPath::folder, "folder for summary.json, tables (CSV) and the resolved scene");
     add_pdf(sub, a.pdf);
-    add_sheet(sub, a.sheet, "workbook (.xlsx) of the load combinations as formulas, to check by hand");
+    add_sheet(sub, a.sheet, "workbook (.xlsx, .ods) of the load combinations as formulas, to check by hand");
     add_jobs(sub, a.jobs);
 }
 

@@ -100,16 +100,18 @@ int start_verifier(const std::vector<std::string>& arguments)
 namespace {
 
 constexpr std::array browser_names{"chromium", "chromium-browser", "google-chrome", "google-chrome-stable"};
+constexpr std::array office_names{"soffice", "libreoffice"};
 constexpr std::chrono::seconds longest_print{120};
 
-/// The first of the names that the PATH has; none: no browser.
-std::optional<std::filesystem::path> find_browser()
+/// The first of the names that the PATH has.
+template <std::size_t n>
+std::optional<std::filesystem::path> find_program(const std::array<const char*, n>& names)
 {
     const char* path = std::getenv("PATH");
     std::string_view folders = path ? path : "";
     while (!folders.empty()) {
         const std::string_view folder = folders.substr(0, folders.find(':'));
-        for (const char* name : browser_names) {
+        for (const char* name : names) {
             const std::filesystem::path file = std::filesystem::path(folder) / name;
             if (!folder.empty() && access(file.c_str(), X_OK) == 0) return file;
         }
@@ -118,7 +120,7 @@ std::optional<std::filesystem::path> find_browser()
     return std::nullopt;
 }
 
-/// A folder of its own for the page, the profile of the browser and what it prints; gone afterwards.
+/// A folder of its own for what another program reads, its profile and what it writes; gone afterwards.
 class PrintFolder {
 public:
     PrintFolder()
@@ -192,7 +194,7 @@ bool run_to_end(const std::filesystem::path& program, std::vector<std::string> a
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-/// The last lines of what the browser said.
+/// The last lines of what the program said.
 std::string last_words(const std::filesystem::path& said)
 {
     constexpr std::size_t most = 400;
@@ -211,7 +213,7 @@ void name_report(const std::filesystem::path& file, const Streams& streams)
 
 void check_pdf(const std::filesystem::path& target)
 {
-    if (!find_browser())
+    if (!find_program(browser_names))
         refuse_usage("--pdf " + target.string() + ": there is no Chromium to print with.",
                      fmt::format("one of {} on the PATH", fmt::join(browser_names, ", ")),
                      "apt install chromium, or write the report (--out) and print it from a browser");
@@ -220,7 +222,7 @@ void check_pdf(const std::filesystem::path& target)
 
 void print_pdf(const std::string& html, const std::filesystem::path& target)
 {
-    const std::optional<std::filesystem::path> browser = find_browser();
+    const std::optional<std::filesystem::path> browser = find_program(browser_names);
     const PrintFolder folder;
     const std::filesystem::path page = folder / "report.html", printed = folder / "report.pdf", said = folder / "said";
     write_file(page, html);
@@ -241,6 +243,42 @@ void print_pdf(const std::string& html, const std::filesystem::path& target)
                                     fmt::format("a page within {} s", longest_print.count()),
                                     "write the report (--out) and print it from a browser"});
     write_file(target, read_file(printed));
+}
+
+void check_sheet(const std::filesystem::path& target)
+{
+    const std::string end = target.extension().string();
+    if (end != ".xlsx" && end != ".ods")
+        refuse_usage(fmt::format("--sheet {} is not a workbook.", target.string()), "a file that ends in .xlsx or .ods",
+                     "for example  --sheet check.xlsx");
+    if (end == ".ods" && !find_program(office_names))
+        refuse_usage(fmt::format("--sheet {}: there is no LibreOffice to write it with.", target.string()),
+                     fmt::format("one of {} on the PATH, or a file that ends in .xlsx", fmt::join(office_names, ", ")),
+                     "apt install libreoffice-calc-nogui, or write  " + std::filesystem::path(target).replace_extension(".xlsx").string() +
+                         " , which LibreOffice opens");
+    if (auto problem = output_path_problem(target, OutputPath::file, "--sheet")) throw UsageError(std::move(*problem));
+}
+
+void write_sheet(const std::filesystem::path& target, const std::function<void(const std::filesystem::path&)>& write_xlsx)
+{
+    if (target.extension() != ".ods") {
+        write_xlsx(target);
+        return;
+    }
+    if (target.has_parent_path()) make_folder(target.parent_path());
+    const std::optional<std::filesystem::path> office = find_program(office_names);
+    const PrintFolder folder;
+    const std::filesystem::path made = folder / "sheet.ods", said = folder / "said";
+    write_xlsx(folder / "sheet.xlsx");
+    const bool ended = office && run_to_end(*office,
+                                            {office->string(), "-env:UserInstallation=" + url_of(folder / "profile"), "--headless",
+                                             "--convert-to", "ods", "--outdir", made.parent_path().string(), (folder / "sheet.xlsx").string()},
+                                            said);
+    if (!ended || !std::filesystem::exists(made))
+        throw InputError(Diagnostic{target.string(), 0, 0, "LibreOffice did not write the workbook. " + last_words(said),
+                                    fmt::format("a file within {} s", longest_print.count()),
+                                    "write a file that ends in .xlsx and save it from LibreOffice"});
+    write_file(target, read_file(made));
 }
 
 } // namespace damslip::cli

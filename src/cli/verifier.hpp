@@ -70,4 +70,12 @@ void check_pdf(const std::filesystem::path& target);
 /// @param html  of page_html() @throws InputError with what the browser said when it prints nothing within two minutes
 void print_pdf(const std::string& html, const std::filesystem::path& target);
 
+/// For use before anything is computed. @throws UsageError  neither .xlsx nor .ods, .ods without LibreOffice on the PATH, or nothing can be
+/// written there
+void check_sheet(const std::filesystem::path& target);
+
+/// Writes a workbook by `write_xlsx`; one that ends in .ods is converted by a LibreOffice of this machine. The file appears whole or not at all.
+/// @throws InputError with what LibreOffice said when it writes nothing within two minutes
+void write_sheet(const std::filesystem::path& target, const std::function<void(const std::filesystem::path&)>& write_xlsx);
+
 } // namespace damslip::cli

@@ -76,12 +76,12 @@ LognormalFit fit_lognormal(std::span<const StripeCount> stripes)
     LognormalFit fit;
     const FragilityStripes s = checked(stripes);
     if (s.failures == 0.0) {
-        fit.why = fmt::format("none of {:g} runs exceeds the limit: no curve, P is below {:.3g} with 95 %", s.runs,
+        fit.why = fmt::format("none of {:g} runs exceeds the limit: P is below {:.3g} with 95 %", s.runs,
                               s.runs > 0.0 ? bound_of_none(s.runs) : 1.0);
         return fit;
     }
     if (s.failures == s.runs) {
-        fit.why = fmt::format("all of {:g} runs exceed the limit: no curve, P is above {:.3g} with 95 %", s.runs,
+        fit.why = fmt::format("all of {:g} runs exceed the limit: P is above {:.3g} with 95 %", s.runs,
                               1.0 - bound_of_none(s.runs));
         return fit;
     }
@@ -104,7 +104,7 @@ LognormalFit fit_lognormal(std::span<const StripeCount> stripes)
     // Equal shares leave a slope of round-off, of either sign; a median beyond all numbers is none either.
     const double median = std::exp(-fit.b0 / fit.b1);
     if (!(fit.b1 > 1e-6 * std::sqrt(fit.var_b1)) || !(median > 0.0) || !std::isfinite(median)) {
-        fit.why = "the share of failures does not rise with the intensity: no lognormal curve";
+        fit.why = "the share of failures does not rise with the intensity";
         return fit;
     }
     fit.method = exists ? FitMethod::likelihood : FitMethod::firth;
@@ -379,7 +379,7 @@ CapacityFit fit_capacities(std::span<const double> reached, std::span<const doub
     for (double& v : y) square += (v - mean) * (v - mean), v -= mean;
     for (double& v : c) v -= mean;
     if (y.size() < 2 || !(square > 0.0)) {
-        fit.why = "fewer than two different levels are reached: no curve";
+        fit.why = "fewer than two different levels are reached";
         return fit;
     }
     const double n = static_cast<double>(y.size());

@@ -188,5 +188,17 @@ with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run([program, "screen", "examples/own_dam.toml", "--rigid-only", "--sheet", "/proc/none/check.xlsx"], cwd=root,
                               capture_output=True, text=True)
         assert done.returncode == 3 and "/proc/none" in done.stderr and "fix:" in done.stderr, (done.returncode, done.stderr)
-    done = subprocess.run([program, "screen", "examples/own_dam.toml", "--sheet", "check.ods"], cwd=root, capture_output=True, text=True)
-    assert done.returncode == 2 and ".xlsx" in done.stderr, done.stderr
+    for name, env in [("check.csv", None), ("check.ods", {"PATH": "/none"})]:  # no workbook; no LibreOffice
+        done = subprocess.run([program, "screen", "examples/own_dam.toml", "--sheet", name], cwd=root, capture_output=True, text=True, env=env)
+        assert done.returncode == 2 and ".xlsx" in done.stderr, done.stderr
+    if office:  # .ods, converted back: the same cells
+        run("screen", root / "examples" / "own_dam.toml", "--rigid-only", "--sheet", folder / "ods" / "own_dam.ods", "--quiet")
+        subprocess.run(["soffice", f"-env:UserInstallation=file://{folder}/profile", "--headless", "--convert-to", "xlsx:Calc MS Excel 2007 XML",
+                        "--outdir", folder / "ods", folder / "ods" / "own_dam.ods"], check=True, capture_output=True)
+        ours, theirs = sheets(folder / "own_dam.xlsx"), sheets(folder / "ods" / "own_dam.xlsx")
+        assert list(ours) == list(theirs)
+        for name in ours:
+            assert {c: v is None for c, (v, _) in ours[name].items()} == {c: v is None for c, (v, _) in theirs[name].items()}, name
+            for c, (_, value) in ours[name].items():
+                same = value == theirs[name][c][1] if isinstance(value, str) else off(value, theirs[name][c][1]) < EXACT or abs(value - theirs[name][c][1]) < 1e-12
+                assert same, (name, c, value, theirs[name][c])

@@ -79,13 +79,6 @@ struct Workbook::Sheet {
     std::set<std::string> names; ///< in small letters: a spreadsheet does not tell them apart
 };
 
-void Workbook::check_name(const std::filesystem::path& file)
-{
-    if (file.extension() != ".xlsx")
-        refuse_usage(fmt::format("--sheet {} is not a workbook.", file.string()), "a file that ends in .xlsx",
-                     "for example  --sheet check.xlsx");
-}
-
 Workbook::Workbook(std::filesystem::path file) : file_(std::move(file)), sheet_(std::make_unique<Sheet>())
 {
     if (file_.has_parent_path()) make_folder(file_.parent_path());

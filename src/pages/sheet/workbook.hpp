@@ -45,8 +45,6 @@ Formula sum(const std::vector<Formula>& terms);
 /// compute shows it too. The same content gives the same cells.
 class Workbook {
 public:
-    /// @throws UsageError where the file does not end in .xlsx
-    static void check_name(const std::filesystem::path& file);
     explicit Workbook(std::filesystem::path file);
     ~Workbook();
     Workbook(const Workbook&) = delete;
