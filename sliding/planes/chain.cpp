@@ -18,26 +18,15 @@ Point sum(Point a, double factor, Point b)
     return {a.x + factor * b.x, a.y + factor * b.y};
 }
 
-Point along(const ChainBlock& b)
+ChainLaw::BlockDirections directions(const ChainBlock& b)
 {
-    return {std::cos(b.dip), -std::sin(b.dip)};
+    const Point t{std::cos(b.dip), -std::sin(b.dip)}, n{std::sin(b.dip), std::cos(b.dip)};
+    return {t, n, sum(scaled(std::cos(b.dilation), t), std::sin(b.dilation), n)};
 }
-Point normal(const ChainBlock& b)
+ChainLaw::FaceDirections directions(const ChainInterface& i)
 {
-    return {std::sin(b.dip), std::cos(b.dip)};
-}
-/// Direction in which the block moves: t, turned up by the dilation.
-Point movement(const ChainBlock& b)
-{
-    return sum(scaled(std::cos(b.dilation), along(b)), std::sin(b.dilation), normal(b));
-}
-Point up(const ChainInterface& i)
-{
-    return {std::cos(i.angle), std::sin(i.angle)};
-}
-Point downstream(const ChainInterface& i)
-{
-    return {std::sin(i.angle), -std::cos(i.angle)};
+    const Point e{std::cos(i.angle), std::sin(i.angle)};
+    return {e, {e.y, -e.x}};
 }
 /// A v with A = m I + M^w.
 Point moved(const ChainBlock& b, Point v)
@@ -46,32 +35,36 @@ Point moved(const ChainBlock& b, Point v)
     return {(b.mass + w.xx) * v.x + w.xy * v.y, w.xy * v.x + (b.mass + w.yy) * v.y};
 }
 
-/// Rates q, the first 1, and senses of the interfaces for given tangents of dilation.
-void set_rates(const Chain& chain, ChainLaw& law)
+/// Directions, rates q and senses of the interfaces: what of the chain does not depend on F.
+ChainLaw law_with_rates(const Chain& chain)
 {
+    ChainLaw law;
+    for (const ChainBlock& block : chain.blocks) law.of_blocks.push_back(directions(block));
+    for (const ChainInterface& face : chain.interfaces) law.of_faces.push_back(directions(face));
     law.rates.assign(chain.blocks.size(), 1.0);
     law.senses.assign(chain.interfaces.size(), 0);
     double rate = 1.0; // without dilation, for the senses
     for (std::size_t j = 0; j < chain.interfaces.size(); ++j) {
-        const ChainInterface& face = chain.interfaces[j];
-        const ChainBlock &before = chain.blocks[j], &after = chain.blocks[j + 1];
-        const Point out = downstream(face);
-        const double next = rate * dot(along(before), out) / dot(along(after), out);
-        const double rises = dot(sum(scaled(next, along(after)), -rate, along(before)), up(face));
+        const ChainLaw::BlockDirections &before = law.of_blocks[j], &after = law.of_blocks[j + 1];
+        const auto& [up, out] = law.of_faces[j];
+        const double next = rate * dot(before.along, out) / dot(after.along, out);
+        const double rises = dot(sum(scaled(next, after.along), -rate, before.along), up);
         law.senses[j] = std::abs(rises) < 1e-12 ? 0 : rises > 0.0 ? 1 : -1;
         rate = next;
-        const Point shut = sum(out, -law.senses[j] * std::tan(face.dilation), up(face));
-        law.rates[j + 1] = law.rates[j] * dot(movement(before), shut) / dot(movement(after), shut);
-        if (!(law.rates[j + 1] > 0.0)) law.locked = true;
+        const Point shut = sum(out, -law.senses[j] * std::tan(chain.interfaces[j].dilation), up);
+        law.rates[j + 1] = law.rates[j] * dot(before.movement, shut) / dot(after.movement, shut);
+        if (!(law.rates[j + 1] > 0.0)) law.path_locked = true;
     }
     const double dam = law.rates[chain.dam];
     for (double& q : law.rates) q /= dam;
+    law.locked = law.path_locked;
+    return law;
 }
 
 /// z = ν - σ μ e of an interface.
-Point transfer(const ChainInterface& face, int sense, double over)
+Point transfer(const ChainInterface& face, const ChainLaw::FaceDirections& of, int sense, double over)
 {
-    return sum(downstream(face), -sense * face.friction / over, up(face));
+    return sum(of.downstream, -sense * face.friction / over, of.up);
 }
 
 void set_weights(const Chain& chain, double over, ChainLaw& law)
@@ -79,10 +72,9 @@ void set_weights(const Chain& chain, double over, ChainLaw& law)
     law.weights.clear();
     double scale = 1.0;
     for (std::size_t i = 0; i < chain.blocks.size(); ++i) {
-        const ChainBlock& block = chain.blocks[i];
-        const Point w = sum(along(block), block.friction / over, normal(block));
+        const Point w = sum(law.of_blocks[i].along, chain.blocks[i].friction / over, law.of_blocks[i].normal);
         if (i > 0) {
-            const Point z = transfer(chain.interfaces[i - 1], law.senses[i - 1], over);
+            const Point z = transfer(chain.interfaces[i - 1], law.of_faces[i - 1], law.senses[i - 1], over);
             const double here = dot(w, z), before = dot(law.weights.back(), z);
             if (!(here > 0.0) || !(before > 0.0)) {
                 law.locked = true;
@@ -93,47 +85,39 @@ void set_weights(const Chain& chain, double over, ChainLaw& law)
         law.weights.push_back(scaled(scale, w));
     }
     // The scale of the dam's block is 1.
-    const ChainBlock& dam = chain.blocks[chain.dam];
-    const double unit = dot(law.weights[chain.dam], along(dam));
+    const double unit = dot(law.weights[chain.dam], law.of_blocks[chain.dam].along);
     for (Point& w : law.weights) w = scaled(1.0 / unit, w);
-}
-
-/// What of the chain does not depend on F.
-ChainLaw law_with_rates(const Chain& chain)
-{
-    ChainLaw law;
-    set_rates(chain, law);
-    return law;
-}
-
-void complete(const Chain& chain, double over, ChainLaw& law)
-{
-    law.drive = law.mass = law.constant = law.per_a_v = 0.0;
-    set_weights(chain, over, law);
-    if (law.locked) return;
-    for (std::size_t i = 0; i < chain.blocks.size(); ++i) {
-        const ChainBlock& b = chain.blocks[i];
-        const Point w = law.weights[i], weight{0.0, -b.mass * chain.gravity};
-        law.drive += dot(w, moved(b, {1.0, 0.0}));
-        law.mass += law.rates[i] * dot(w, moved(b, movement(b)));
-        law.per_a_v -= dot(w, moved(b, {0.0, 1.0}));
-        law.constant += dot(w, sum(sum(sum(b.force, 1.0, weight), b.uplift, normal(b)),
-                                   -b.cohesion / over * b.length, along(b)));
-    }
-    for (std::size_t j = 0; j < chain.interfaces.size(); ++j) {
-        const ChainInterface& face = chain.interfaces[j];
-        const Point force = sum(scaled(face.water, downstream(face)),
-                                -law.senses[j] * face.cohesion / over * face.length, up(face));
-        law.constant += dot(sum(law.weights[j + 1], -1.0, law.weights[j]), force);
-    }
 }
 
 } // namespace
 
+void set_strengths(const Chain& chain, double over, ChainLaw& law)
+{
+    law.drive = law.mass = law.constant = law.per_a_v = 0.0;
+    law.locked = law.path_locked;
+    if (!law.locked) set_weights(chain, over, law);
+    if (law.locked) return;
+    for (std::size_t i = 0; i < chain.blocks.size(); ++i) {
+        const ChainBlock& b = chain.blocks[i];
+        const auto& [t, n, movement] = law.of_blocks[i];
+        const Point w = law.weights[i], weight{0.0, -b.mass * chain.gravity};
+        law.drive += dot(w, moved(b, {1.0, 0.0}));
+        law.mass += law.rates[i] * dot(w, moved(b, movement));
+        law.per_a_v -= dot(w, moved(b, {0.0, 1.0}));
+        law.constant += dot(w, sum(sum(sum(b.force, 1.0, weight), b.uplift, n), -b.cohesion / over * b.length, t));
+    }
+    for (std::size_t j = 0; j < chain.interfaces.size(); ++j) {
+        const ChainInterface& face = chain.interfaces[j];
+        const auto& [up, out] = law.of_faces[j];
+        const Point force = sum(scaled(face.water, out), -law.senses[j] * face.cohesion / over * face.length, up);
+        law.constant += dot(sum(law.weights[j + 1], -1.0, law.weights[j]), force);
+    }
+}
+
 ChainLaw chain_law(const Chain& chain, double over)
 {
     ChainLaw law = law_with_rates(chain);
-    if (!law.locked) complete(chain, over, law);
+    set_strengths(chain, over, law);
     return law;
 }
 
@@ -151,18 +135,18 @@ ChainForces chain_forces(const Chain& chain, const ChainLaw& law, double a_h, do
     Point incoming;
     for (std::size_t i = 0; i < chain.blocks.size(); ++i) {
         const ChainBlock& b = chain.blocks[i];
-        const Point t = along(b), n = normal(b);
+        const auto& [t, n, movement] = law.of_blocks[i];
         const double friction = b.friction / over, cohesion = b.cohesion / over * b.length;
-        Point right = sum(sum(moved(b, sum({-a_h, a_v}, law.rates[i] * slip_accel, movement(b))), -1.0, b.force), -1.0,
+        Point right = sum(sum(moved(b, sum({-a_h, a_v}, law.rates[i] * slip_accel, movement)), -1.0, b.force), -1.0,
                           {0.0, -b.mass * chain.gravity});
         right = sum(sum(sum(right, -b.uplift, n), cohesion, t), -1.0, incoming);
         const Point base = sum(n, -friction, t);
         double normal_force = dot(right, n);
         if (i < chain.interfaces.size()) {
             const ChainInterface& face = chain.interfaces[i];
-            const Point z = transfer(face, law.senses[i], over);
-            const Point fixed = sum(scaled(face.water, downstream(face)),
-                                    -law.senses[i] * face.cohesion / over * face.length, up(face));
+            const auto& [up, out] = law.of_faces[i];
+            const Point z = transfer(face, law.of_faces[i], law.senses[i], over);
+            const Point fixed = sum(scaled(face.water, out), -law.senses[i] * face.cohesion / over * face.length, up);
             right = sum(right, 1.0, fixed);
             // right = N base - E z
             const double determinant = -base.x * z.y + base.y * z.x;
@@ -181,12 +165,10 @@ ChainForces chain_forces(const Chain& chain, const ChainLaw& law, double a_h, do
 
 double chain_factor(const Chain& chain, double a_h, double a_v)
 {
-    const ChainLaw rates = law_with_rates(chain);
-    if (rates.locked) return infinite;
-    ChainLaw law = rates;
+    ChainLaw law = law_with_rates(chain);
+    if (law.locked) return infinite;
     const auto missing = [&](double factor) { // to sliding at this F; falls as F grows
-        law.locked = false;
-        complete(chain, factor, law);
+        set_strengths(chain, factor, law);
         return law.yield(a_v) - a_h;
     };
     double high = 1.0;
@@ -212,9 +194,9 @@ std::vector<double> resistance_shares(const Chain& chain, const ChainLaw& law, c
     for (std::size_t i = 0; i < chain.blocks.size(); ++i)
         power.push_back(std::max(0.0, forces.resistance[i] * law.rates[i] * std::cos(chain.blocks[i].dilation)));
     for (std::size_t j = 0; j < chain.interfaces.size(); ++j) {
-        const Point apart = sum(scaled(law.rates[j + 1], movement(chain.blocks[j + 1])), -law.rates[j],
-                                movement(chain.blocks[j]));
-        power.push_back(std::max(0.0, forces.shear[j] * dot(apart, up(chain.interfaces[j]))));
+        const Point apart = sum(scaled(law.rates[j + 1], law.of_blocks[j + 1].movement), -law.rates[j],
+                                law.of_blocks[j].movement);
+        power.push_back(std::max(0.0, forces.shear[j] * dot(apart, law.of_faces[j].up)));
     }
     for (const double p : power) all += p;
     for (double& p : power) p = all > 0.0 ? p / all : 0.0;
@@ -247,7 +229,7 @@ double yield_growth(const Chain& chain, double density)
         for (std::size_t j = 0; j < chain.interfaces.size(); ++j) {
             const ChainInterface& face = chain.interfaces[j];
             const double crossed =
-                density * face.length * slip * law.rates[j] * dot(movement(chain.blocks[j]), downstream(face));
+                density * face.length * slip * law.rates[j] * dot(law.of_blocks[j].movement, law.of_faces[j].downstream);
             after.blocks[j].mass -= crossed;
             after.blocks[j + 1].mass += crossed;
         }

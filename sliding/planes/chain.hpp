@@ -60,6 +60,16 @@ struct ChainLaw {
     std::vector<double> rates;             ///< q, speed over its segment over that of the dam's block [-]
     std::vector<int> senses;               ///< σ of each interface: 1 where the downstream side rises against it, -1, 0
 
+    struct BlockDirections {
+        Point along, normal, movement; ///< t, n, and t turned up by the dilation
+    };
+    struct FaceDirections {
+        Point up, downstream; ///< e, ν
+    };
+    std::vector<BlockDirections> of_blocks;
+    std::vector<FaceDirections> of_faces;
+    bool path_locked = false; ///< whatever the strengths: dilation lets a block go nowhere
+
     /// Yield acceleration at a vertical acceleration [m/s^2]; infinite where locked.
     double yield(double a_v = 0.0) const
     {
@@ -71,6 +81,9 @@ struct ChainLaw {
 
 /// @param over  F, which all strengths are divided by, those of interfaces too [-]
 ChainLaw chain_law(const Chain& chain, double over = 1.0);
+
+/// Makes `law` that of the same chain with other strengths: directions, rates and senses stay, dilation must be as it was.
+void set_strengths(const Chain& chain, double over, ChainLaw& law);
 
 /// What acts between the blocks and on their segments.
 struct ChainForces {

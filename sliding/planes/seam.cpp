@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <tuple>
 
 namespace damslip::sliding {
 
@@ -77,7 +78,7 @@ struct Heads {
 };
 
 /// Path distance at which the drains meet the seam; none: no drains there.
-std::optional<double> drains_on(const Scene& scene, const Polyline& path)
+std::optional<double> drains_on(const Scene& scene, const Polyline& surface, const Polyline& path)
 {
     if (!scene.drains) return std::nullopt;
     const double x = scene.drains->distance;
@@ -89,7 +90,7 @@ std::optional<double> drains_on(const Scene& scene, const Polyline& path)
         const Point a = path[i - 1], b = path[i];
         if (x >= a.x && x <= b.x) {
             const double share = (x - a.x) / (b.x - a.x), y = a.y + share * (b.y - a.y);
-            if (y < ground_level(ground_line(scene), x) - depth * (1.0 + 1e-12)) return std::nullopt;
+            if (y < ground_level(surface, x) - depth * (1.0 + 1e-12)) return std::nullopt;
             return before + share * distance(a, b);
         }
         before += distance(a, b);
@@ -139,7 +140,8 @@ PressureProfile pressure_along(const Polyline& path, const std::vector<Point>& h
     return wet;
 }
 
-PressureProfile seam_pressure(const Scene& scene, const Seam& seam, const Polyline& path, Heads ends, DrainState drains)
+PressureProfile seam_pressure(const Scene& scene, const Seam& seam, const Polyline& surface, const Polyline& path, Heads ends,
+                              DrainState drains)
 {
     if (seam.uplift == UpliftModel::none) return {};
     double length = 0.0;
@@ -152,7 +154,7 @@ PressureProfile seam_pressure(const Scene& scene, const Seam& seam, const Polyli
         return profile;
     }
     std::vector<Point> heads{{0.0, ends.entry}};
-    const std::optional<double> at = seam.uplift == UpliftModel::drains ? drains_on(scene, path) : std::nullopt;
+    const std::optional<double> at = seam.uplift == UpliftModel::drains ? drains_on(scene, surface, path) : std::nullopt;
     if (at && *at > 0.0 && *at < length && drains == DrainState::effective) {
         // EM 1110-2-2200: H3 = H2 + (1 - E)(H1 - H2)(L - X)/L; a gallery above H2 takes its place.
         const bool downstream = ends.entry >= ends.exit;
@@ -202,36 +204,57 @@ const char* word(ChainStatus status)
     return "";
 }
 
-namespace {
-
-/// The dam on the rock, whatever the path.
-struct DamOnRock {
-    std::vector<Force> loads; ///< static, without its weight
+/// The dam on the rock and the seam below it, whatever the wedge and the strengths.
+struct SeamGround::Rock {
+    std::vector<Force> loads; ///< static, of the dam without its weight
     double mass = 0.0;
     Point centre;
     AddedMassIntegral water;
+    Polyline surface, path; ///< of the rock; of the seam
 
-    explicit DamOnRock(const Scene& scene)
+    Rock(const Scene& scene, const Seam& seam)
         : mass(dam_mass(scene)), centre(centroid(scene.section)),
-          water(scene_added_mass(scene, scene.reservoir ? std::optional(scene.reservoir->level) : std::nullopt))
+          water(scene_added_mass(scene, scene.reservoir ? std::optional(scene.reservoir->level) : std::nullopt)),
+          surface(ground_line(scene)), path(seam_path(scene, seam))
     {
+        if (!scene.foundation || !(scene.foundation->material.density > 0.0))
+            refuse(seam, "the rock above it has no density.", "foundation.density_kg_m3",
+                   "add  density_kg_m3 = 2650  to [foundation]");
         for (const Load& l : static_loads(scene, scene_load_case(scene)))
             if (l.kind != LoadKind::weight && l.kind != LoadKind::anchor) loads.push_back(l.force.total());
     }
 };
 
-SeamModel model_of(const Scene& scene, const DamOnRock& on_rock, const Seam& seam, std::optional<double> angle,
+namespace {
+
+using Rock = SeamGround::Rock;
+
+void put_strengths(const Seam& seam, const SeamState& state, InterfaceModel kind, std::size_t segments_of_seam, Chain& chain)
+{
+    const double friction = state.friction ? *state.friction : FrictionOverSlip(seam.strength).peak();
+    for (std::size_t i = 0; i < chain.blocks.size(); ++i) {
+        ChainBlock& block = chain.blocks[i];
+        const bool of_wedge = i >= segments_of_seam;
+        block.friction = of_wedge ? seam.wedge->friction : friction;
+        block.cohesion = of_wedge ? seam.wedge->cohesion : state.bonded ? seam.strength.cohesion : 0.0;
+        block.dilation = !state.dilates ? 0.0 : of_wedge ? seam.wedge->dilation : seam.dilation;
+    }
+    const bool rubs = kind == InterfaceModel::friction;
+    for (ChainInterface& face : chain.interfaces) {
+        face.friction = rubs ? seam.interface.friction : 0.0;
+        face.cohesion = rubs ? seam.interface.cohesion : 0.0;
+    }
+}
+
+SeamModel model_of(const Scene& scene, const Rock& on_rock, const Seam& seam, std::optional<double> angle,
                    const SeamState& state = {}, std::optional<InterfaceModel> interface = std::nullopt)
 {
-    if (!scene.foundation || !(scene.foundation->material.density > 0.0))
-        refuse(seam, "the rock above it has no density.", "foundation.density_kg_m3", "add  density_kg_m3 = 2650  to [foundation]");
     const double rock = scene.foundation->material.density, unit_weight = water_unit_weight(scene);
-    const Polyline surface = ground_line(scene);
+    const Polyline& surface = on_rock.surface;
     const Point first = heel(scene.section), last = toe(scene.section);
-    const InterfaceModel kind = interface.value_or(seam.interface.model);
 
     SeamModel model;
-    model.path = seam_path(scene, seam);
+    model.path = on_rock.path;
     const std::size_t segments_of_seam = model.path.size() - 1;
     const bool free_face = !angle && seam.exit != SeamExit::daylight;
     if (angle) {
@@ -259,7 +282,7 @@ SeamModel model_of(const Scene& scene, const DamOnRock& on_rock, const Seam& sea
     Heads ends;
     ends.entry = scene.reservoir ? scene.reservoir->level : model.path.front().y;
     ends.exit = std::max(tops.back().y, scene.tailwater ? scene.tailwater->level : -unbounded);
-    model.pressure = seam_pressure(scene, seam, model.path, ends, state.drains);
+    model.pressure = seam_pressure(scene, seam, surface, model.path, ends, state.drains);
 
     model.chain.gravity = scene.gravity;
     std::optional<std::size_t> dam;
@@ -270,11 +293,6 @@ SeamModel model_of(const Scene& scene, const DamOnRock& on_rock, const Seam& sea
         block.length = distance(a, b);
         block.dip = std::atan2(a.y - b.y, b.x - a.x);
         block.uplift = force_on(model.pressure, start, start + block.length);
-        const bool of_wedge = i >= segments_of_seam;
-        block.friction = of_wedge ? seam.wedge->friction : state.friction.value_or(FrictionOverSlip(seam.strength).peak());
-        block.cohesion = of_wedge ? seam.wedge->cohesion : state.bonded ? seam.strength.cohesion : 0.0;
-        block.dilation = !state.dilates ? 0.0 : of_wedge ? seam.wedge->dilation : seam.dilation;
-
         Polyline outline{a, b};
         const Polyline top = surface_between(surface, tops[i], tops[i + 1]);
         for (auto p = top.rbegin(); p != top.rend(); ++p)
@@ -307,10 +325,6 @@ SeamModel model_of(const Scene& scene, const DamOnRock& on_rock, const Seam& sea
             ChainInterface face;
             face.angle = up;
             face.length = distance(b, tops[i + 1]);
-            if (kind == InterfaceModel::friction) {
-                face.friction = seam.interface.friction;
-                face.cohesion = seam.interface.cohesion;
-            }
             face.water = model.pressure.empty()
                              ? 0.0
                              : water_in(pressure_at(model.pressure, start + block.length), unit_weight, face.length,
@@ -324,6 +338,7 @@ SeamModel model_of(const Scene& scene, const DamOnRock& on_rock, const Seam& sea
         refuse(seam, "it bends under the dam, and the face between its blocks cuts the dam.",
                "kinks whose faces reach the ground outside of heel and toe", "move the kink, or give seam.interface.angle_deg");
     model.chain.dam = *dam;
+    put_strengths(seam, state, interface.value_or(seam.interface.model), segments_of_seam, model.chain);
     return model;
 }
 
@@ -332,7 +347,7 @@ SeamModel model_of(const Scene& scene, const DamOnRock& on_rock, const Seam& sea
 SeamModel seam_model(const Scene& scene, const Seam& seam, std::optional<double> angle, const SeamState& state,
                      std::optional<InterfaceModel> interface)
 {
-    return model_of(scene, DamOnRock(scene), seam, angle, state, interface);
+    return model_of(scene, Rock(scene, seam), seam, angle, state, interface);
 }
 
 ChainStatus chain_status(const Chain& chain, const ChainLaw& law, double a_h, double a_v, double over)
@@ -381,24 +396,42 @@ std::vector<double> resultants(const SeamModel& model, const ChainForces& forces
     return places;
 }
 
-/// Least value of a function that has one minimum between lo and hi (golden section).
+/// Place of the least value between lo and hi, both above that at `best`: the minimum of the parabola through the three best
+/// places, or a golden section where that does not close in (Brent 1973, chapter 5).
 template <typename Function>
-double least_between(Function&& value, double lo, double hi)
+double least_between(Function&& value, double lo, double best, double at_best, double hi)
 {
-    constexpr double golden = 0.61803398874989485;
-    double a = hi - golden * (hi - lo), b = lo + golden * (hi - lo), at_a = value(a), at_b = value(b);
-    while (hi - lo > 1e-7) {
-        if (at_a <= at_b) {
-            hi = b;
-            b = a, at_b = at_a;
-            a = hi - golden * (hi - lo), at_a = value(a);
+    constexpr double golden = 0.38196601125010515, tolerance = 1e-8;
+    double second = best, third = best, at_second = at_best, at_third = at_best, step = 0.0, before = 0.0;
+    for (int i = 0; i < 100; ++i) {
+        const double middle = 0.5 * (lo + hi);
+        if (std::abs(best - middle) <= 2.0 * tolerance - 0.5 * (hi - lo)) break;
+        const double r = (best - second) * (at_best - at_third), q = (best - third) * (at_best - at_second);
+        const double parabola = -0.5 * ((best - third) * q - (best - second) * r) / (q - r);
+        const bool closes = std::abs(before) > tolerance && std::abs(parabola) < 0.5 * std::abs(before) &&
+                            best + parabola > lo && best + parabola < hi; // false for no number
+        before = closes ? step : best < middle ? hi - best : lo - best;
+        step = closes ? parabola : golden * before;
+        if (closes && std::min(best + step - lo, hi - best - step) < 2.0 * tolerance)
+            step = std::copysign(tolerance, middle - best);
+        const double place = best + (std::abs(step) >= tolerance ? step : std::copysign(tolerance, step));
+        const double here = value(place);
+        if (here <= at_best) {
+            (place < best ? hi : lo) = best;
+            third = second, at_third = at_second;
+            second = best, at_second = at_best;
+            best = place, at_best = here;
         } else {
-            lo = a;
-            a = b, at_a = at_b;
-            b = lo + golden * (hi - lo), at_b = value(b);
+            (place < best ? lo : hi) = place;
+            if (here <= at_second || second == best) {
+                third = second, at_third = at_second;
+                second = place, at_second = here;
+            } else if (here <= at_third || third == best || third == second) {
+                third = place, at_third = here;
+            }
         }
     }
-    return 0.5 * (lo + hi);
+    return best;
 }
 
 constexpr double scan_step = 0.25 * degree;
@@ -421,73 +454,128 @@ ChainStatus status_at(const Chain& chain, double factor, const GroundState& stat
     return chain_status(chain, chain_law(chain, factor), state.a_h, state.a_v, factor);
 }
 
-struct Search {
-    const Scene& scene;
-    const DamOnRock& on_rock;
-    const Seam& seam;
-    const std::vector<GroundState>& states;
-
-    WedgeTrial tried(double angle) const
-    {
-        WedgeTrial trial{angle, {}, {}, unbounded, ChainStatus::locked};
-        const Chain chain = model_of(scene, on_rock, seam, angle).chain;
-        for (const GroundState& state : states) {
-            trial.factors.push_back(chain_factor(chain, state.a_h, state.a_v));
-            trial.statuses.push_back(status_at(chain, trial.factors.back(), state));
-        }
-        const ChainLaw law = chain_law(chain);
-        trial.yield = law.yield();
-        trial.status = chain_status(chain, law, trial.yield, 0.0);
-        return trial;
-    }
-};
-
-/// Index of the least value; none: all are infinite.
-template <typename Value>
-std::optional<std::size_t> least(const std::vector<WedgeTrial>& trials, Value value)
+/// What F and a_y of a seam are least of: F of the k-th state, after the last of them a_y; infinite where the wedge does not stand.
+double least_of(const Chain& chain, const ChainLaw& law, const std::vector<GroundState>& states, std::size_t k)
 {
-    std::optional<std::size_t> best;
-    for (std::size_t i = 0; i < trials.size(); ++i)
-        if (std::isfinite(value(trials[i])) && (!best || value(trials[i]) < value(trials[*best]))) best = i;
-    return best;
+    const double value = k < states.size() ? chain_factor(chain, states[k].a_h, states[k].a_v) : law.yield();
+    const ChainStatus status = k < states.size() ? status_at(chain, value, states[k]) : chain_status(chain, law, value, 0.0);
+    return status == ChainStatus::stands ? value : unbounded;
+}
+
+WedgeTrial tried(double angle, const Chain& chain, const ChainLaw& law, const std::vector<GroundState>& states)
+{
+    WedgeTrial trial{angle, {}, {}, law.yield(), ChainStatus::locked};
+    for (const GroundState& state : states) {
+        trial.factors.push_back(chain_factor(chain, state.a_h, state.a_v));
+        trial.statuses.push_back(status_at(chain, trial.factors.back(), state));
+    }
+    trial.status = chain_status(chain, law, trial.yield, 0.0);
+    return trial;
+}
+
+} // namespace
+
+SeamGround::SeamGround(const Scene& scene, const Seam& seam) : rock_(std::make_shared<const Rock>(scene, seam)), seam_(seam)
+{
+    if (!seam.wedge || seam.exit != SeamExit::wedge) return;
+    for (const double angle : angles_of(*seam.wedge)) {
+        Scanned& s = scan_.emplace_back();
+        s.angle = angle;
+        s.chain = model_of(scene, *rock_, seam, angle).chain;
+        s.law = chain_law(s.chain);
+    }
+}
+
+bool SeamGround::serves(const Seam& seam) const
+{
+    const auto path = [](const Seam& s) {
+        return std::tie(s.points, s.depth, s.dip, s.heel, s.exit, s.uplift, s.uplift_points, s.dilation, s.interface.angle);
+    };
+    const auto wedge = [](const SeamWedge& w) {
+        return std::tie(w.angles, w.search_from, w.search_to, w.distance, w.dilation);
+    };
+    return path(seam) == path(seam_) && seam.wedge.has_value() == seam_.wedge.has_value() &&
+           (!seam.wedge || wedge(*seam.wedge) == wedge(*seam_.wedge));
+}
+
+namespace {
+
+SlipStages stages_of(const Scene& scene, const Rock& rock, const Seam& seam, std::optional<double> angle, double growth);
+std::vector<SeamStage> bodies_of(const Scene& scene, const Rock& rock, const Seam& seam, std::optional<double> angle);
+
+/// Angles of the wedge at the least F of each state and, last, at the least a_y; none: no wedge, or none that stands.
+std::vector<std::optional<double>> least_angles(const Scene& scene, const Seam& seam, const std::vector<GroundState>& states,
+                                                const SeamGround& ground, SeamPlane& plane)
+{
+    std::vector<std::optional<double>> angles(states.size() + 1);
+    const std::vector<SeamGround::Scanned>& scan = ground.scan();
+    if (scan.empty()) return angles;
+    std::vector<double> values(scan.size());
+    SeamGround::Scanned at;
+    const auto with_strengths = [&](const SeamGround::Scanned& scanned) {
+        at = scanned;
+        put_strengths(seam, {}, seam.interface.model, ground.rock().path.size() - 1, at.chain);
+        set_strengths(at.chain, 1.0, at.law);
+    };
+    if (!states.empty())
+        for (const SeamGround::Scanned& scanned : scan) {
+            with_strengths(scanned);
+            plane.trials.push_back(tried(at.angle, at.chain, at.law, states));
+        }
+    for (std::size_t k = 0; k <= states.size(); ++k) {
+        double least = unbounded;
+        std::size_t best = scan.size();
+        for (std::size_t i = 0; i < scan.size(); ++i) {
+            if (states.empty()) {
+                with_strengths(scan[i]);
+                values[i] = at.law.yield() < least ? least_of(at.chain, at.law, states, k) : unbounded;
+            } else {
+                const WedgeTrial& t = plane.trials[i];
+                const ChainStatus status = k < states.size() ? t.statuses[k] : t.status;
+                values[i] = status != ChainStatus::stands ? unbounded : k < states.size() ? t.factors[k] : t.yield;
+            }
+            if (values[i] < least) least = values[i], best = i;
+        }
+        if (best == scan.size()) continue;
+        angles[k] = scan[best].angle;
+        if (!seam.wedge->angles.empty()) continue;
+        const bool at_end = best == 0 || best + 1 == scan.size();
+        plane.at_end_of_range = plane.at_end_of_range || at_end;
+        if (at_end) continue;
+        angles[k] = least_between(
+            [&](double angle) {
+                const Chain chain = model_of(scene, ground.rock(), seam, angle).chain;
+                return least_of(chain, chain_law(chain), states, k);
+            },
+            scan[best - 1].angle, scan[best].angle, least, scan[best + 1].angle);
+    }
+    if (states.empty()) return angles;
+    for (const std::optional<double>& angle : angles) {
+        if (!angle || !seam.wedge->angles.empty()) continue;
+        const Chain chain = model_of(scene, ground.rock(), seam, angle).chain;
+        plane.trials.push_back(tried(*angle, chain, chain_law(chain), states));
+    }
+    const auto lower = [](const WedgeTrial& a, const WedgeTrial& b) { return a.angle < b.angle; };
+    std::sort(plane.trials.begin(), plane.trials.end(), lower);
+    const auto same = [](const WedgeTrial& a, const WedgeTrial& b) { return a.angle == b.angle; };
+    plane.trials.erase(std::unique(plane.trials.begin(), plane.trials.end(), same), plane.trials.end());
+    return angles;
 }
 
 } // namespace
 
 SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<GroundState>& states)
 {
+    return seam_plane(scene, seam, states, SeamGround(scene, seam));
+}
+
+SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<GroundState>& states, const SeamGround& ground)
+{
     SeamPlane plane;
     plane.name = seam.name;
-    const DamOnRock on_rock(scene);
-    const Search search{scene, on_rock, seam, states};
-    std::vector<std::optional<double>> angles(states.size() + 1); // of each F, then of the yield
-    if (seam.wedge && seam.exit == SeamExit::wedge) {
-        for (const double angle : angles_of(*seam.wedge)) plane.trials.push_back(search.tried(angle));
-        const std::vector<WedgeTrial> scanned = plane.trials;
-        for (std::size_t k = 0; k <= states.size(); ++k) {
-            // The k-th F, or a_y; infinite where the wedge does not stand.
-            const auto value = [&](const WedgeTrial& t) {
-                const ChainStatus status = k < states.size() ? t.statuses[k] : t.status;
-                return status != ChainStatus::stands ? unbounded : k < states.size() ? t.factors[k] : t.yield;
-            };
-            const std::optional<std::size_t> best = least(scanned, value);
-            if (!best) continue;
-            angles[k] = scanned[*best].angle;
-            if (!seam.wedge->angles.empty()) continue;
-            const bool at_end = *best == 0 || *best + 1 == scanned.size();
-            plane.at_end_of_range = plane.at_end_of_range || at_end;
-            if (at_end) continue;
-            const double angle = least_between([&](double a) { return value(search.tried(a)); },
-                                               scanned[*best - 1].angle, scanned[*best + 1].angle);
-            const WedgeTrial refined = search.tried(angle);
-            if (value(refined) > value(scanned[*best])) continue;
-            angles[k] = angle;
-            plane.trials.push_back(refined);
-        }
-        std::sort(plane.trials.begin(), plane.trials.end(),
-                  [](const WedgeTrial& a, const WedgeTrial& b) { return a.angle < b.angle; });
-        plane.wedge_left_out = !angles.back();
-    }
+    const Rock& on_rock = ground.rock();
+    const std::vector<std::optional<double>> angles = least_angles(scene, seam, states, ground, plane);
+    plane.wedge_left_out = !ground.scan().empty() && !angles.back();
     plane.angle = angles.back();
 
     const bool bare = seam.exit == SeamExit::wedge;
@@ -512,16 +600,17 @@ SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<Gro
     plane.status = chain_status(chain, law, plane.yield, 0.0);
     // F = 1 where the yield is zero.
     const std::size_t of_seam = chain.blocks.size() - (plane.angle ? 1 : 0);
-    auto excess = [&, held = chain](double friction) mutable {
+    auto excess = [&, held = chain, of_held = law](double friction) mutable {
         for (std::size_t i = 0; i < of_seam; ++i) held.blocks[i].friction = friction;
-        return chain_law(held).yield();
+        set_strengths(held, 1.0, of_held);
+        return of_held.yield();
     };
     double high = 1.0;
     while (high < 1e3 && excess(high) < 0.0) high *= 2.0;
     plane.holding_friction = excess(0.0) >= 0.0 ? 0.0 : excess(high) < 0.0 ? unbounded : bracketed_root(excess, 0.0, high);
     plane.valid_slip = unbounded;
     if (plane.status == ChainStatus::locked) {
-        plane.stages = seam_stages(scene, seam, plane.angle, 0.0);
+        plane.stages = stages_of(scene, on_rock, seam, plane.angle, 0.0);
         return plane;
     }
     plane.yield_per_a_v = -law.per_a_v / law.drive;
@@ -533,7 +622,7 @@ SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<Gro
         plane.growth = yield_growth(chain, scene.foundation->material.density);
         if (plane.growth != 0.0) plane.valid_slip = 0.05 * std::abs(plane.yield / plane.growth);
     }
-    plane.bodies = seam_bodies(scene, seam, plane.angle);
+    plane.bodies = bodies_of(scene, on_rock, seam, plane.angle);
     if (!plane.bodies.empty()) {
         const SeamStage& first = plane.bodies.front();
         plane.upstream = yield_upstream_alone(first.body);
@@ -547,7 +636,7 @@ SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<Gro
         }
     }
     plane.stages =
-        seam_stages(scene, seam, plane.angle, scene.planes.geometry == PlaneGeometry::linear ? plane.growth : 0.0);
+        stages_of(scene, on_rock, seam, plane.angle, scene.planes.geometry == PlaneGeometry::linear ? plane.growth : 0.0);
     return plane;
 }
 
@@ -599,13 +688,10 @@ std::vector<Piece> pieces_of(const Scene& scene, const Seam& seam)
     return pieces;
 }
 
-} // namespace
-
-SlipStages seam_stages(const Scene& scene, const Seam& seam, std::optional<double> angle, double growth)
+SlipStages stages_of(const Scene& scene, const Rock& on_rock, const Seam& seam, std::optional<double> angle, double growth)
 {
     SlipStages stages;
     const std::vector<FrictionOverSlip::Piece> given = FrictionOverSlip(seam.strength).pieces();
-    const DamOnRock on_rock(scene);
     for (const Piece& piece : pieces_of(scene, seam)) {
         const Chain chain = model_of(scene, on_rock, seam, angle, piece.state).chain;
         SlipStage stage;
@@ -638,10 +724,9 @@ SlipStages seam_stages(const Scene& scene, const Seam& seam, std::optional<doubl
     return stages;
 }
 
-std::vector<SeamStage> seam_bodies(const Scene& scene, const Seam& seam, std::optional<double> angle)
+std::vector<SeamStage> bodies_of(const Scene& scene, const Rock& on_rock, const Seam& seam, std::optional<double> angle)
 {
     std::vector<SeamStage> stages;
-    const DamOnRock on_rock(scene);
     const std::vector<Piece> pieces = pieces_of(scene, seam);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         SeamState state = pieces[i].state;
@@ -653,6 +738,18 @@ std::vector<SeamStage> seam_bodies(const Scene& scene, const Seam& seam, std::op
         stages.push_back({pieces[i].from, chain, body});
     }
     return stages;
+}
+
+} // namespace
+
+SlipStages seam_stages(const Scene& scene, const Seam& seam, std::optional<double> angle, double growth)
+{
+    return stages_of(scene, Rock(scene, seam), seam, angle, growth);
+}
+
+std::vector<SeamStage> seam_bodies(const Scene& scene, const Seam& seam, std::optional<double> angle)
+{
+    return bodies_of(scene, Rock(scene, seam), seam, angle);
 }
 
 } // namespace damslip::sliding

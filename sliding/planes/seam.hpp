@@ -8,6 +8,7 @@
 #include "sliding/planes/chain.hpp"
 #include "sliding/planes/seam_motion.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -102,9 +103,35 @@ struct SeamPlane {
     std::vector<SeamStage> bodies;  ///< for slide_seam(), both ways; empty: downstream only
 };
 
-/// @param states  the first is the static one; none: factors are not asked for
+/// What of a seam does not depend on its strengths: its geometry, loads and water, for each angle of the wedge that is tried.
+class SeamGround {
+public:
+    struct Rock;
+    /// The chain at an angle, with the strengths of the seam that it was made for.
+    struct Scanned {
+        double angle = 0.0;
+        Chain chain;
+        ChainLaw law;
+    };
+
+    /// @throws InputError for a seam whose blocks cannot be made (messages of check.hpp come first)
+    SeamGround(const Scene& scene, const Seam& seam);
+
+    bool serves(const Seam& seam) const; ///< a seam that differs in strengths alone, dilation apart
+    const Rock& rock() const { return *rock_; }
+    const std::vector<Scanned>& scan() const { return scan_; } ///< by ascending angle; empty: no wedge
+
+private:
+    std::shared_ptr<const Rock> rock_;
+    Seam seam_;
+    std::vector<Scanned> scan_;
+};
+
+/// @param states  the first is the static one; none: factors and trials are not asked for
 /// @throws InputError for a seam whose blocks cannot be made (messages of check.hpp come first)
 SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<GroundState>& states);
+/// @param ground  of the same scene and of a seam that it serves
+SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<GroundState>& states, const SeamGround& ground);
 
 /// Stages of a seam over its slip: cohesion lost, friction over the slip, drains sheared off, dilation at its end; with
 /// planes.geometry = "linear" the yield grows by `growth` with the slip.

@@ -12,13 +12,29 @@ namespace {
 struct MovingChain {
     Chain chain;
     ChainLaw law;
+    double per_a_h = 0.0, per_a_v = 0.0, constant = -1e9; ///< of the acceleration of the slip; locked: it never moves
+
+    MovingChain(const Chain& given) : chain(given), law(chain_law(given))
+    {
+        if (law.locked) return;
+        per_a_h = law.drive / law.mass;
+        per_a_v = law.per_a_v / law.mass;
+        constant = law.constant / law.mass;
+    }
 
     /// Acceleration of the slip, linear in that of the ground.
     Line acceleration(const Line& a_h, const Line& a_v) const
     {
-        const Line driven = combine(law.drive / law.mass, a_h, law.per_a_v / law.mass, a_v);
-        const double constant = law.constant / law.mass;
-        return law.locked ? Line{-1e9, -1e9} : Line{driven.now + constant, driven.end + constant};
+        const Line driven = combine(per_a_h, a_h, per_a_v, a_v);
+        return {driven.now + constant, driven.end + constant};
+    }
+    /// Least and largest of it over a range of the ground's acceleration, round-off apart.
+    Line acceleration(const AccelRange& range) const
+    {
+        const double h[]{per_a_h * range.h_min, per_a_h * range.h_max}, v[]{per_a_v * range.v_min, per_a_v * range.v_max};
+        const double margin = 1e-12 * (std::abs(h[0]) + std::abs(h[1]) + std::abs(v[0]) + std::abs(v[1]) + std::abs(constant));
+        return {std::min(h[0], h[1]) + std::min(v[0], v[1]) + constant - margin,
+                std::max(h[0], h[1]) + std::max(v[0], v[1]) + constant + margin};
     }
     Point velocity(std::size_t i) const ///< of a block, per rate of the slip
     {
@@ -60,8 +76,7 @@ public:
         : two_way_(options.sliding.two_way), books_(works == SeamWorks::booked)
     {
         for (const SeamStage& s : stages) {
-            const Chain back = going_upstream(s.body);
-            stages_.push_back({s.from_slip, {s.chain, chain_law(s.chain)}, {s.body, chain_law(s.body)}, {back, chain_law(back)}});
+            stages_.push_back({s.from_slip, {s.chain}, {s.body}, {going_upstream(s.body)}});
         }
         wedge_ = stages.front().chain.blocks.size() > 1;
         out_.ledger.planes.assign(stages.front().chain.blocks.size(), 0.0);
@@ -86,6 +101,15 @@ public:
             if (way_ == 0 && (until_rest || length >= rest)) break;
         }
     }
+    bool at_rest() const { return way_ == 0; }
+    /// At rest: nothing in the range moves it.
+    bool rests(const AccelRange& range) const
+    {
+        const MovingStage& s = stage();
+        return (touching_ ? s.together : s.down).acceleration(range).end < 0.0 &&
+               (!two_way_ || s.up.acceleration(range).now > 0.0);
+    }
+    void wait(double span) { time_ += span; } ///< at rest
     SeamSlide result()
     {
         stop_counting();
@@ -128,7 +152,9 @@ private:
         double length = std::min(rest, time_of_stop(speed, sign * a.now, sign * jerk));
         const bool stops = length < rest || (speed == 0.0 && length == 0.0);
         int event = stops ? 1 : 0;
+        const double furthest = (speed + std::max(std::abs(a.now), std::abs(a.end)) * length) * length;
         const auto reach = [&](double distance, int which) { // of the slip from here
+            if (distance > furthest) return;
             const std::array<double, 4> left{distance, -speed, -0.5 * sign * a.now, -sign * jerk / 6.0};
             const double at = first_fall_to_zero(left, length);
             if (at < length) length = at, event = which;
@@ -233,17 +259,33 @@ Yield yield_upstream_alone(const Chain& body)
     return {{law.constant / law.drive, law.per_a_v / law.drive}, law.drive / law.mass};
 }
 
-SeamSlide slide_seam(const GroundMotion& motion, const std::vector<SeamStage>& stages, const SlideOptions& options,
+SeamSlide slide_seam(const SkippingMotion& skipping, const std::vector<SeamStage>& stages, const SlideOptions& options,
                      SeamWorks works)
 {
-    check_motion(motion);
+    const GroundMotion& motion = skipping.motion();
     SeamRun run(stages, options, works);
     const auto at = [&](std::size_t i) { return options.polarity * motion.accel_h[i]; };
     const auto up = [&](std::size_t i) { return motion.accel_v.empty() ? 0.0 : motion.accel_v[i]; };
-    for (std::size_t i = 0; i + 1 < motion.accel_h.size(); ++i)
+    const auto rests = [&](AccelRange range) {
+        if (options.polarity < 0) range = {-range.h_max, -range.h_min, range.v_min, range.v_max};
+        return run.rests(range);
+    };
+    for (std::size_t i = 0; i < skipping.intervals(); ++i) {
+        if (run.at_rest()) {
+            const std::size_t next = skipping.skip(i, rests);
+            run.wait(static_cast<double>(next - i) * motion.dt);
+            if ((i = next) == skipping.intervals()) break;
+        }
         run.pass({at(i), at(i + 1)}, {up(i), up(i + 1)}, motion.dt, false);
+    }
     if (options.sliding.run_out_max > 0.0) run.pass({}, {}, options.sliding.run_out_max, true);
     return run.result();
+}
+
+SeamSlide slide_seam(const GroundMotion& motion, const std::vector<SeamStage>& stages, const SlideOptions& options,
+                     SeamWorks works)
+{
+    return slide_seam(SkippingMotion(motion), stages, options, works);
 }
 
 } // namespace damslip::sliding

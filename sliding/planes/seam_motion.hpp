@@ -48,6 +48,8 @@ Yield yield_upstream_alone(const Chain& body);
 /// impact the rate is M*_body/M*_chain of that before. Scheme and lift-off of the options are not used, no histories.
 /// @param stages  at least one @param options  two_way: upstream, too
 /// @param works  left out: of the ledger what impacts took alone, and no least pressure; the slide is the same
+SeamSlide slide_seam(const SkippingMotion& motion, const std::vector<SeamStage>& stages, const SlideOptions& options,
+                     SeamWorks works = SeamWorks::booked);
 SeamSlide slide_seam(const GroundMotion& motion, const std::vector<SeamStage>& stages, const SlideOptions& options,
                      SeamWorks works = SeamWorks::booked);
 

@@ -52,9 +52,9 @@ void add_bodies(const Scene& scene, const sliding::SeamPlane& plane, RigidModel&
 
 namespace {
 
-RigidModel model_of(const Scene& scene, const Seam& seam)
+RigidModel model_of(const Scene& scene, const Seam& seam, KeptStatics& kept)
 {
-    sliding::SeamPlane plane = sliding::seam_plane(scene, seam, {});
+    sliding::SeamPlane plane = sliding::seam_plane(scene, seam, {}, *kept.seams.get(scene, seam));
     RigidModel model =
         plane_model(std::move(plane.stages), plane.model.chain.blocks[plane.model.chain.dam].length, 1.0, true);
     model.critical_friction = plane.holding_friction;
@@ -77,10 +77,11 @@ std::vector<RigidModel> plane_models(const Scene& scene, KeptStatics* kept)
 {
     std::vector<RigidModel> models;
     KeptStatics own;
+    KeptStatics& statics = kept ? *kept : own;
     if (scene.lifts)
         for (sliding::LiftPlane& lift : sliding::lift_planes(scene, {{"static"}}))
-            models.push_back(model_of(scene, lift, kept ? *kept : own));
-    for (const Seam& seam : scene.seams) models.push_back(model_of(scene, seam));
+            models.push_back(model_of(scene, lift, statics));
+    for (const Seam& seam : scene.seams) models.push_back(model_of(scene, seam, statics));
     return models;
 }
 
@@ -96,12 +97,13 @@ std::vector<RigidModel> all_models(const Ready& ready)
 
 RigidModel plane_model(const Scene& scene, const std::string& name, KeptStatics* kept)
 {
-    for (const Seam& seam : scene.seams)
-        if (seam.name == name) return model_of(scene, seam);
     KeptStatics own;
+    KeptStatics& statics = kept ? *kept : own;
+    for (const Seam& seam : scene.seams)
+        if (seam.name == name) return model_of(scene, seam, statics);
     if (scene.lifts)
         for (sliding::LiftPlane& lift : sliding::lift_planes(scene, {{"static"}}))
-            if (lift.name == name) return model_of(scene, lift, kept ? *kept : own);
+            if (lift.name == name) return model_of(scene, lift, statics);
     const std::vector<std::string> names = plane_names(scene);
     const std::string_view near = nearest(name, names);
     refuse_usage(fmt::format("no plane is named \"{}\".", name), fmt::format("planes: {}", fmt::join(names, ", ")),

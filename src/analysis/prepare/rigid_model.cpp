@@ -112,10 +112,12 @@ bool moves_back(const Scene& scene, const RigidModel& model, const sliding::Acce
 }
 
 /// The slide of such a seam; none: it stays on its wedge, or does not stand.
-std::optional<sliding::SlideResult> both_ways(const Scene& scene, const RigidModel& model, const GroundMotion& motion,
-                                              const sliding::AccelRange& range, int polarity)
+std::optional<sliding::SlideResult> both_ways(const Scene& scene, const RigidModel& model,
+                                              const sliding::SkippingMotion& motion, int polarity)
 {
-    if (motion.is_sequence() || model.state != sliding::StaticState::at_rest || !moves_back(scene, model, range, polarity)) return std::nullopt;
+    if (motion.motion().is_sequence() || model.state != sliding::StaticState::at_rest ||
+        !moves_back(scene, model, motion.whole(), polarity))
+        return std::nullopt;
     return sliding::slide_seam(motion, *model.bodies, {scene.sliding, polarity}, sliding::SeamWorks::left_out).slide;
 }
 
@@ -182,7 +184,7 @@ sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, co
     if (model.wedge || model.moves_unlike_ground()) return slide_model(scene, model, motion.motion(), polarity, history);
     if (model.rests && motion.motion().is_sequence())
         return slide_model(scene, model, motion.motion(), polarity, history);
-    std::optional<sliding::SlideResult> back = both_ways(scene, model, motion.motion(), motion.whole(), polarity);
+    std::optional<sliding::SlideResult> back = both_ways(scene, model, motion, polarity);
     sliding::SlideResult result =
         back ? std::move(*back) : sliding::slide(motion, model.stages, slide_options(scene, model, polarity, history));
     check_length(model, result);
@@ -193,23 +195,24 @@ sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, co
 std::vector<sliding::SlideResult> slide_models(const Scene& scene, std::span<const RigidModel* const> models,
                                                const sliding::SkippingMotion& motion, int polarity)
 {
-    std::vector<sliding::SlideResult> results;
     const RigidModel& first = *models.front();
-    const bool back = std::any_of(models.begin(), models.end(), [&](const RigidModel* model) {
-        return moves_back(scene, *model, motion.whole(), polarity);
-    });
-    if (first.wedge || !first.anchors.empty() || first.moves_unlike_ground() || back || motion.motion().is_sequence()) {
-        for (const RigidModel* model : models)
-            results.push_back(slide_model(scene, *model, motion, polarity, sliding::HistoryOutput::none));
-        return results;
-    }
+    const bool together = !first.wedge && first.anchors.empty() && !first.moves_unlike_ground() && !motion.motion().is_sequence();
+    std::vector<sliding::SlideResult> results(models.size());
     std::vector<const sliding::SlipStages*> stages;
-    for (const RigidModel* model : models) stages.push_back(&model->stages);
-    results =
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < models.size(); ++i)
+        if (together && !moves_back(scene, *models[i], motion.whole(), polarity)) {
+            stages.push_back(&models[i]->stages);
+            places.push_back(i);
+        } else {
+            results[i] = slide_model(scene, *models[i], motion, polarity, sliding::HistoryOutput::none);
+        }
+    std::vector<sliding::SlideResult> found =
         sliding::slide_together(motion, stages, slide_options(scene, first, polarity, sliding::HistoryOutput::none));
-    for (std::size_t i = 0; i < models.size(); ++i) {
-        check_length(*models[i], results[i]);
-        check_tipping(*models[i], polarity > 0 ? motion.whole().h_max : -motion.whole().h_min, results[i]);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        sliding::SlideResult& result = results[places[k]] = std::move(found[k]);
+        check_length(*models[places[k]], result);
+        check_tipping(*models[places[k]], polarity > 0 ? motion.whole().h_max : -motion.whole().h_min, result);
     }
     return results;
 }
@@ -219,10 +222,8 @@ sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, co
 {
     const sliding::SlideOptions options = slide_options(scene, model, polarity, history);
     const auto block = [&] {
-        if (model.bodies) {
-            const sliding::SkippingMotion skipping(motion);
-            if (auto back = both_ways(scene, model, motion, skipping.whole(), polarity)) return std::move(*back);
-        }
+        if (model.bodies)
+            if (auto back = both_ways(scene, model, sliding::SkippingMotion(motion), polarity)) return std::move(*back);
         if (model.tied) return sliding::slide_above(motion, *model.tied, model.stages, options);
         if (model.amplification == 1.0) return sliding::slide(motion, model.stages, options, model.rests.get());
         return sliding::slide(amplified(motion, model.amplification), model.stages, options, model.rests.get());

@@ -8,11 +8,12 @@
 #include "sliding/block/yield.hpp"
 #include "sliding/empirical/regression.hpp"
 #include "sliding/equilibrium/base_state.hpp"
-#include "sliding/planes/seam_motion.hpp"
+#include "sliding/planes/seam.hpp"
 #include "sliding/rocking/rocking.hpp"
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -67,9 +68,25 @@ private:
     std::mutex mutex_;
     std::optional<Found> found_;
 };
+/// Of the seams of a scene, by name; one that does not serve any more is made again.
+class KeptSeams {
+public:
+    std::shared_ptr<const sliding::SeamGround> get(const Scene& scene, const Seam& seam)
+    {
+        const std::lock_guard lock(mutex_);
+        std::shared_ptr<const sliding::SeamGround>& kept = found_[seam.name];
+        if (!kept || !kept->serves(seam)) kept = std::make_shared<const sliding::SeamGround>(scene, seam);
+        return kept;
+    }
+
+private:
+    std::mutex mutex_;
+    std::map<std::string, std::shared_ptr<const sliding::SeamGround>> found_;
+};
 struct KeptStatics {
     KeptOnce<RigidStatics> base;
     KeptOnce<LiftModes> lifts; ///< of lifts.amplification = "modes"
+    KeptSeams seams;
 };
 
 /// On the base, or on the plane that scene.planes.slides_on names.
