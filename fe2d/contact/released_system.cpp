@@ -1,6 +1,7 @@
 #include "fe2d/contact/released_system.hpp"
 
 #include "fe2d/contact/two_levels.hpp"
+#include "fe2d/solver/dense_product.hpp"
 
 #include <Eigen/Core>
 
@@ -18,6 +19,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr Index most_borders = 64;
+constexpr Index large = 256;             ///< unknowns of a base from which it is factorised by blocks
 constexpr double smallest_pivot = 1e-13; ///< of a factor against the unknown's own diagonal entry of V
 constexpr double row_aim = 1e-13;        ///< of the released rows, relative to the largest stuck force: refine above
 constexpr double row_tolerance = 1e-10;  ///< the same: refuse above
@@ -109,6 +111,36 @@ double factorise(const Block& a, std::vector<Index>& pivots, const Scale& scale)
         if (pivot != j)
             for (Index i = 0; i <= j; ++i) std::swap(a.column(i)[j], a.column(i)[pivot]);
         for (Index i = j + 1; i < a.size; ++i) column[i] /= column[j];
+    }
+    return smallest;
+}
+
+/// The same by blocks of columns, for large matrices: other round-off, and a fraction of the time.
+template <class Scale>
+double factorise_large(Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> a, std::vector<Index>& pivots,
+                       const Scale& scale)
+{
+    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(a);
+    a = lu.matrixLU();
+    const auto& to = lu.permutationP().indices(); // of a row
+    const auto size = static_cast<std::size_t>(a.rows());
+    std::vector<Index> wanted(size), at(size), place(size); // row wanted at a place; row at a place; place of a row
+    for (std::size_t i = 0; i < size; ++i) {
+        wanted[static_cast<std::size_t>(to[static_cast<Index>(i)])] = static_cast<Index>(i);
+        at[i] = place[i] = static_cast<Index>(i);
+    }
+    pivots.resize(size);
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < size; ++i) {
+        const Index other = place[static_cast<std::size_t>(wanted[i])];
+        pivots[i] = other;
+        std::swap(at[i], at[static_cast<std::size_t>(other)]);
+        place[static_cast<std::size_t>(at[i])] = static_cast<Index>(i);
+        place[static_cast<std::size_t>(at[static_cast<std::size_t>(other)])] = other;
+        const auto j = static_cast<Index>(i);
+        const double pivot = std::abs(a(j, j));
+        if (!(pivot > 0.0) || !std::isfinite(pivot)) return 0.0;
+        smallest = std::min(smallest, pivot / scale(j));
     }
     return smallest;
 }
@@ -364,7 +396,8 @@ bool ReleasedSystem::rebuild()
         const Index unknown = base_[static_cast<std::size_t>(j)];
         return stiffness_(unknown, unknown);
     };
-    regular_ = size == 0 || factorise(leading(factor_, size), pivots_, scale) > smallest_pivot;
+    regular_ = size == 0 || (size < large ? factorise(leading(factor_, size), pivots_, scale)
+                                          : factorise_large(matrix, pivots_, scale)) > smallest_pivot;
     return regular_;
 }
 

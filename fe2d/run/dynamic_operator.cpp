@@ -54,13 +54,16 @@ DynamicOperator::DynamicOperator(const ContactStructure& structure, const RunDam
     if (!factor_.regular()) return;
     const double w = 1.0 + constants.scheme.alpha;
     if (radiating) rock_step_.emplace(*radiating, damping.constants.stiffness, constants);
+    by_gaps_ = !radiating && !structure.has_rock() && !has_floor() && structure.planes().count() > 1;
     if (has_floor())
         couple_floor();
-    else
+    else if (!by_gaps_)
         interface_flexibility_ = symmetric_inverse(factor_.schur());
     const ContactPlanes::Matrix& gaps = gaps_;
-    pull_ = interface_flexibility_ * gaps.transpose();
-    dam_flexibility_ = gaps * pull_;
+    if (!by_gaps_) {
+        pull_ = interface_flexibility_ * gaps.transpose();
+        dam_flexibility_ = gaps * pull_;
+    }
     if (!radiating && structure.has_rock())
         rock_share_ = 1.0 / (w * (1.0 + constants.a1 * damping.constants.stiffness));
     if (slip_damping.active()) {
@@ -72,14 +75,20 @@ DynamicOperator::DynamicOperator(const ContactStructure& structure, const RunDam
             factor_.forward(column);
             momentum_.col(k) = column;
         }
-        interface_momentum_ = interface_flexibility_ * momentum_.bottomRows(interface);
-        z_ = gaps * interface_momentum_;
-        zeta_ = momentum_.bottomRows(interface).transpose() * interface_momentum_;
+        if (by_gaps_) {
+            z_ = gaps * momentum_.bottomRows(interface);
+            zeta_ = MatrixXd::Zero(planes, planes);
+        } else {
+            interface_momentum_ = interface_flexibility_ * momentum_.bottomRows(interface);
+            z_ = gaps * interface_momentum_;
+            zeta_ = momentum_.bottomRows(interface).transpose() * interface_momentum_;
+        }
         for (Index i = 0; i < planes; ++i)
             for (Index k = 0; k < planes; ++k) zeta_(i, k) += factor_.inner_product(momentum_.col(i), momentum_.col(k));
-        unmixed_ =
-            (MatrixXd::Identity(planes, planes) - z_.bottomRows(structure.pairs()).transpose() * slip_damping.weights)
-                .inverse();
+        if (!by_gaps_)
+            unmixed_ = (MatrixXd::Identity(planes, planes) -
+                        z_.bottomRows(structure.pairs()).transpose() * slip_damping.weights)
+                           .inverse();
     }
     contact_ = contact_at(structure.trace(0.0));
 }
@@ -118,13 +127,9 @@ VectorXd DynamicOperator::on_floor(const VectorXd& interface) const
     return values;
 }
 
-/// W⁻¹; where nothing but the dam gives way that is its Schur complement.
+/// W⁻¹
 MatrixXd DynamicOperator::sticking_stiffness(const Pairing::Matrix& trace) const
 {
-    if (!has_floor() && !rock_step_ && !structure_.has_rock() && structure_.planes().count() > 1) {
-        const MatrixXd half = gaps_ * factor_.schur();
-        return half * gaps_.transpose();
-    }
     MatrixXd flexibility = dam_flexibility_;
     if (rock_step_) {
         const Index base = rock_step_->rock().base();
@@ -137,12 +142,30 @@ MatrixXd DynamicOperator::sticking_stiffness(const Pairing::Matrix& trace) const
     return symmetric_inverse(flexibility);
 }
 
+/// w V where the gaps are all that is free on the interface.
+MatrixXd DynamicOperator::stiffness_by_gaps() const
+{
+    const Index m = structure_.pairs();
+    MatrixXd stiffness = gaps_ * factor_.schur();
+    stiffness = (stiffness * gaps_.transpose()).eval();
+    if (!slip_damping_.active()) return stiffness;
+    const MatrixXd& weights = slip_damping_.weights;
+    stiffness.rightCols(m) -= z_ * weights.transpose();
+    stiffness.bottomRows(m) -= weights * z_.transpose();
+    stiffness.bottomRightCorner(m, m) += weights * (drag_ - zeta_) * weights.transpose();
+    return 0.5 * (stiffness + stiffness.transpose());
+}
+
 StepContact DynamicOperator::contact_at(const Pairing::Matrix& trace) const
 {
     const double w = 1.0 + constants_.scheme.alpha;
     const Index m = structure_.pairs();
-    MatrixXd stiffness = sticking_stiffness(trace);
     StepContact contact;
+    if (by_gaps_) {
+        contact.stiffness = std::make_shared<const MatrixXd>(stiffness_by_gaps() / w);
+        return contact;
+    }
+    MatrixXd stiffness = sticking_stiffness(trace);
     if (!slip_damping_.active()) {
         contact.to_stuck = -stiffness / w;
     } else if (const MatrixXd& weights = slip_damping_.weights; weights.cols() == 1) {
@@ -168,20 +191,29 @@ StepContact DynamicOperator::contact_at(const Pairing::Matrix& trace) const
 
 void DynamicOperator::solve_free(Free& free, const VectorXd& rock_gap) const
 {
-    const Index interface = interface_flexibility_.rows();
-    set_product(interface_flexibility_, free.dam.tail(interface), free.interface);
-    free.gap.noalias() = gaps_ * free.interface;
-    if (rock_gap.size() > 0) free.gap -= rock_gap;
+    const Index interface = interface_unknowns();
+    if (by_gaps_) {
+        free.gap.noalias() = gaps_ * free.dam.tail(interface);
+        free.mean.setZero(momentum_.cols());
+    } else {
+        set_product(interface_flexibility_, free.dam.tail(interface), free.interface);
+        free.gap.noalias() = gaps_ * free.interface;
+        if (rock_gap.size() > 0) free.gap -= rock_gap;
+    }
     if (!slip_damping_.active()) return;
-    free.mean.noalias() = momentum_.bottomRows(interface).transpose() * free.interface;
+    if (!by_gaps_) free.mean.noalias() = momentum_.bottomRows(interface).transpose() * free.interface;
     for (Index k = 0; k < momentum_.cols(); ++k) free.mean[k] += factor_.inner_product(momentum_.col(k), free.dam);
 }
 
 void DynamicOperator::stuck_force(const StepContact& contact, Free& free, const VectorXd& known, VectorXd& stuck) const
 {
     const double w = 1.0 + constants_.scheme.alpha;
-    set_product(contact.to_stuck, free.gap, stuck);
-    stuck += known / w;
+    if (by_gaps_) {
+        stuck = (known - free.gap) / w;
+    } else {
+        set_product(contact.to_stuck, free.gap, stuck);
+        stuck += known / w;
+    }
     if (!slip_damping_.active()) return;
     free.drag = free.mean / w;
     free.on_pairs.noalias() = slip_damping_.weights * free.drag;
@@ -192,6 +224,15 @@ void DynamicOperator::finish(Free& free, const VectorXd& force, const VectorXd& 
                              VectorXd& tilde) const
 {
     const Index m = structure_.pairs(), inner = factor_.inner_unknowns();
+    if (by_gaps_) {
+        if (slip_damping_.active()) {
+            free.slip.noalias() = slip_damping_.weights.transpose() * gap.tail(m);
+            free.dam.head(inner).noalias() += momentum_.topRows(inner) * free.slip;
+        }
+        free.interface.noalias() = gaps_.transpose() * gap;
+        free.dam.tail(free.interface.size()) = free.interface;
+        return;
+    }
     tilde = (1.0 + constants_.scheme.alpha) * force - known;
     if (slip_damping_.active()) {
         // λ̃ = w λ₁ - known - ω (κ' s - kᵀΔu),  kᵀΔu = mean + ζ s + zᵀλ̃

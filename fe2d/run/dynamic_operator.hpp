@@ -35,7 +35,7 @@ struct SlipDamping {
 
 /// V of one step size at one place of the dam on the rock, and what makes λ⁰ of a free step.
 struct StepContact {
-    Eigen::MatrixXd to_stuck; ///< -(1/w) EᵀW⁻¹
+    Eigen::MatrixXd to_stuck; ///< -(1/w) EᵀW⁻¹; empty where gaps are all that is free (DynamicOperator)
     std::shared_ptr<const Eigen::MatrixXd> stiffness;
 };
 
@@ -52,6 +52,12 @@ struct StepContact {
 /// λ₁ = λ⁰ + V Δg with
 ///
 ///     V = (1/w) [Eᵀ W⁻¹ E + ω (κ' - ζ) ωᵀ]
+///
+/// Where lift joints cut a dam on a rigid base, or on rock that is a block of the structure, the gaps are all that is free on the
+/// interface. With S and k' what A_d and k are there once the inner unknowns are eliminated, b' the same of b_d, ζ_i what k
+/// has on the inner unknowns, kᵢᵀA_ii⁻¹kᵢ, nothing needs to be inverted:
+///
+///     w V = D S Dᵀ - D k' ωᵀ - ω k'ᵀDᵀ + ω (κ' - ζ_i) ωᵀ,   w λ⁰ = (known) - D b' - ω kᵢᵀA_ii⁻¹bᵢ,   Δq = DᵀΔg
 ///
 /// Where the water's floor is the rock's (ReducedRock::floor) the rock's step also feels p̃_f = h Δφ_f + (known) on the volumes v of the
 /// floor, and the water's rows there have h Δv, h = w a1 s, p = s φ̇ (CoupledSystem). The rock eliminated, with W_r = [W_b, W_bf;
@@ -89,9 +95,9 @@ public:
     /// The step without contact forces at its end.
     struct Free {
         Eigen::VectorXd dam;                          ///< b_d after the forward pass of factor() [N/m]
-        Eigen::VectorXd interface;                    ///< Δu of the interface [m]
-        Eigen::VectorXd gap;                          ///< Δg without λ̃ [m]
-        Eigen::VectorXd mean;                         ///< kᵀA_d⁻¹b_d, K values
+        Eigen::VectorXd interface;                    ///< Δu of the interface [m]; by gaps: from finish() on
+        Eigen::VectorXd gap;                          ///< Δg without λ̃ [m]; by gaps: D b' [N/m]
+        Eigen::VectorXd mean;                         ///< kᵀA_d⁻¹b_d, K values; by gaps: kᵢᵀA_ii⁻¹bᵢ
         Eigen::VectorXd slip, drag, pulled, on_pairs; ///< work space, by plane and by pair
     };
     /// @param free  with `dam` = b_d after the forward pass on entry
@@ -104,7 +110,7 @@ public:
 
     /// The step for λ₁ = `force` and Δg = `gap`: free.interface becomes Δu of the interface, and free.dam what the
     /// backward pass of factor() turns into Δu.
-    /// @param tilde  λ̃ [N/m]
+    /// @param tilde  λ̃ [N/m], which rock asks for; by gaps: left alone
     void finish(Free& free, const Eigen::VectorXd& force, const Eigen::VectorXd& known, const Eigen::VectorXd& gap,
                 Eigen::VectorXd& tilde) const;
 
@@ -112,6 +118,7 @@ public:
 
 private:
     void couple_floor();
+    Eigen::MatrixXd stiffness_by_gaps() const;
     Eigen::MatrixXd sticking_stiffness(const Pairing::Matrix& trace) const;
 
     const ContactStructure& structure_;
@@ -120,6 +127,7 @@ private:
     InterfaceFactor factor_;
     ContactPlanes::Matrix gaps_; ///< D on the interface, the floor's part included
     double floor_factor_ = 0.0;
+    bool by_gaps_ = false;                  ///< gaps are all that is free on the interface
     Eigen::MatrixXd interface_flexibility_; ///< inverse of the Schur complement, interface
     Eigen::MatrixXd pull_;                  ///< of the interface by forces on the pairs: the same times Dᵀ
     Eigen::MatrixXd dam_flexibility_;       ///< D A_d⁻¹ Dᵀ
@@ -127,7 +135,7 @@ private:
     std::optional<RockStep> rock_step_;     ///< of rock that radiates
     Eigen::MatrixXd momentum_;              ///< k after the forward pass
     Eigen::MatrixXd interface_momentum_;    ///< A_d⁻¹ k on the interface
-    Eigen::MatrixXd z_, zeta_, drag_;       ///< D A_d⁻¹ k, kᵀA_d⁻¹k, κ'
+    Eigen::MatrixXd z_, zeta_, drag_;       ///< D A_d⁻¹ k, kᵀA_d⁻¹k, κ'; by gaps: D k', ζ_i, κ'
     Eigen::MatrixXd unmixed_;               ///< (I - zᵀω)⁻¹
     StepContact contact_;
 };

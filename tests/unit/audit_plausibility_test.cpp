@@ -363,7 +363,7 @@ TEST(Audit, C_the_resolved_scene_has_the_sizes_of_elements_and_gives_the_same_bi
     folder.write("block.toml", "[section]\npolygon_m = [[0, 0], [8, 0], [8, 2], [0, 2]]\n[dam]\ndensity_kg_m3 = 2500\n"
                                "young_modulus_GPa = 25\n[foundation]\nyoung_modulus_GPa = 20\nmass = \"massless\"\n"
                                "[contact]\nfriction = 0.1\n[reservoir]\nlevel_m = 1\nmodel = "
-                               "\"acoustic\"\n[uplift]\nmodel = \"none\"\n[mesh]\nsize_m = 1\n"
+                               "\"acoustic\"\n[uplift]\nmodel = \"none\"\n[damping]\nmethod = \"none\"\n[mesh]\nsize_m = 1\n"
                                "[time]\ndt_s = 0.02\nsubsteps = 1\n[[motion.record]]\nhorizontal = \"pulse.csv\"\n");
     const ProgramAnswer first = answer_of(
         {"fe", folder.path("block.toml"), "--polarity", "1", "--no-mesh-error", "--out", folder.path("first")});

@@ -2,6 +2,7 @@
 #include "analysis/fe/contact_runs.hpp"
 #include "core/input_error.hpp"
 #include "fe2d/run/step_error.hpp"
+#include "fe2d/run/step_parts.hpp"
 #include "fe2d/assembly/assemble.hpp"
 #include "fe2d/mesh/build_mesh.hpp"
 #include "pages/fe/fe_pages.hpp"
@@ -91,6 +92,52 @@ TEST(AdaptiveLifts, GiveTheHistoriesOfAllLiftsActiveFromTheStart)
     EXPECT_TRUE(std::any_of(adaptive.begin(), adaptive.end(), [](const ContactRun& r) {
         return r.fe.history.energy.back().bond_fracture > 1.0;
     }));
+}
+
+/// A step with lift joints on a rigid base keeps A_d Δu = b + k s + Dᵀ λ̃ and has the gaps asked for, whatever they are.
+TEST(AwakeLifts, StepsKeepTheEquationOfMotion)
+{
+    const fe2d::EarthquakeRun model(ready_of(dam_text("all")).scene, {});
+    const fe2d::ContactStructure& s = model.structure();
+    ASSERT_EQ(s.planes().count(), 5);
+    ASSERT_FALSE(s.has_rock());
+    const Eigen::Index m = s.pairs(), n = s.dam_unknowns();
+    for (const MassDamping mass : {MassDamping::deformation_only, MassDamping::relative}) {
+        const fe2d::RunDamping damping{{2.0, 1e-3}, mass};
+        const fe2d::Scheme scheme = fe2d::hht(-0.1);
+        fe2d::StepOperators operators(s, damping, scheme);
+        const fe2d::DynamicOperator& op = operators.at(0.01);
+        const fe2d::StepConstants& c = op.constants();
+        const double w = 1.0 + scheme.alpha;
+        const Eigen::VectorXd b = 1e6 * Eigen::VectorXd::LinSpaced(n, -1.0, 1.0).array().sin().matrix(),
+                              known = 1e5 * Eigen::VectorXd::LinSpaced(2 * m, 0.0, 9.0).array().cos().matrix(),
+                              gap = 1e-3 * Eigen::VectorXd::LinSpaced(2 * m, 0.0, 30.0).array().sin().matrix();
+        fe2d::DynamicOperator::Free free;
+        free.dam = b;
+        op.factor().forward(free.dam);
+        Eigen::VectorXd force, tilde;
+        op.solve_free(free, {});
+        op.stuck_force(op.contact(), free, known, force);
+        force += *op.contact().stiffness * gap;
+        op.finish(free, force, known, gap, tilde);
+        op.factor().backward(free.dam);
+        const Eigen::VectorXd& u = free.dam;
+
+        const fe2d::SlipDamping& slips = operators.slip_damping();
+        Eigen::VectorXd left = c.a0 * (s.mass() * u) + (w * c.a1 * damping.constants.mass) * (s.dam_mass() * u) +
+                               (w * (1.0 + c.a1 * damping.constants.stiffness)) * (s.stiffness() * u) - b;
+        tilde = w * force - known;
+        EXPECT_EQ(slips.active(), mass == MassDamping::deformation_only);
+        if (slips.active()) {
+            const Eigen::VectorXd slip = slips.weights.transpose() * gap.tail(m);
+            const Eigen::VectorXd drag = slips.drag * slip - slips.momentum.transpose() * u;
+            tilde.tail(m) -= w * c.a1 * (slips.weights * drag);
+            left -= w * c.a1 * (slips.momentum * slip);
+        }
+        left -= s.gaps().transpose() * tilde;
+        EXPECT_LT(left.cwiseAbs().maxCoeff(), 1e-9 * tilde.cwiseAbs().maxCoeff());
+        EXPECT_LT((s.gaps() * u - gap).cwiseAbs().maxCoeff(), 1e-12);
+    }
 }
 
 TEST(AdaptiveLifts, AreNotInTheMeshWithNone)

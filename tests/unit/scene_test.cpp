@@ -58,7 +58,7 @@ TEST(Scene, AMessageWithoutALineGetsThatOfItsKey)
     EXPECT_EQ(line("[[seam]] is not followed."), 14);
     EXPECT_EQ(line("nothing is found.", "write it in [dam]"), 7);
     EXPECT_EQ(line("no.such key, nor [uplift] e.g. 3.5 of seam[7]."), 0);
-    EXPECT_EQ(with_line(Diagnostic{file.string(), 3, 0, "contact.sliding"}).line, 3); // it has one
+    EXPECT_EQ(with_line(Diagnostic{file.string(), 3, 0, "contact.sliding", {}, {}}).line, 3); // it has one
     std::filesystem::remove(file);
     EXPECT_EQ(line("contact.sliding"), 0);
 }
