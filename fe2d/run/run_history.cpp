@@ -291,10 +291,10 @@ void HistoryRecorder::add_pairs(const VectorXd& force)
     PairHistory& pairs = history_.by_pair;
     pairs.pairs = m;
     for (Index i = 0; i < m; ++i) {
-        pairs.pressure.push_back(static_cast<float>(force[i] / area[i]));
-        pairs.shear.push_back(static_cast<float>(-force[tangential + i] / area[i]));
-        pairs.slip.push_back(static_cast<float>(c.slip[i] - start_[i]));
-        pairs.opening.push_back(static_cast<float>(c.opening[i]));
+        pairs.pressure.push_back(force[i] / area[i]);
+        pairs.shear.push_back(-force[tangential + i] / area[i]);
+        pairs.slip.push_back(c.slip[i] - start_[i]);
+        pairs.opening.push_back(c.opening[i]);
     }
     pairs.state.insert(pairs.state.end(), c.states.begin(), c.states.begin() + m);
 }

@@ -82,7 +82,7 @@ private:
 /// Are the values of every pair kept at every row of the history?
 enum class PairSeries {
     none,
-    every_step ///< 17 bytes by pair and row
+    every_step ///< 33 bytes by pair and row
 };
 
 /// One lift joint over time.
@@ -103,10 +103,10 @@ struct AnchorSeries {
 /// Values of the base's m pairs over time; value of pair i in row r: [r * pairs + i]. Slips are counted from the static state.
 struct PairHistory {
     Eigen::Index pairs = 0;
-    std::vector<float> pressure; ///< effective, compression positive [Pa]
-    std::vector<float> shear;    ///< on the dam, resisting downstream slip [Pa]
-    std::vector<float> slip;     ///< positive downstream [m]
-    std::vector<float> opening;  ///< [m]
+    std::vector<double> pressure; ///< effective, compression positive [Pa]
+    std::vector<double> shear;    ///< on the dam, resisting downstream slip [Pa]
+    std::vector<double> slip;     ///< positive downstream [m]
+    std::vector<double> opening;  ///< [m]
     ContactStates state;
 
     std::size_t at(std::size_t row, Eigen::Index pair) const

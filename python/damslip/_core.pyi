@@ -7,7 +7,6 @@ import pandas
 Array = numpy.typing.NDArray[numpy.float64]
 CountArray = numpy.typing.NDArray[numpy.uint64]
 IntegerArray = numpy.typing.NDArray[numpy.int32]
-SingleArray = numpy.typing.NDArray[numpy.float32]
 Progress = Optional[Callable[[str, float, float], object]]
 
 __version__: str
@@ -84,10 +83,10 @@ class FeRun:
     open_length: Array
     slipping_length: Array
     largest_opening: Array
-    pair_pressure: SingleArray
-    pair_shear: SingleArray
-    pair_slip: SingleArray
-    pair_opening: SingleArray
+    pair_pressure: Array
+    pair_shear: Array
+    pair_slip: Array
+    pair_opening: Array
     distance: Array
     pressure_at_end: Array
     shear_at_end: Array

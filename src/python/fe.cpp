@@ -80,7 +80,7 @@ struct FeRun {
     const fe2d::RunHistory& history() const { return run->fe.history; }
 };
 
-py::array of_pairs(const FeRun& run, const std::vector<float>& values, const py::object& owner)
+py::array of_pairs(const FeRun& run, const std::vector<double>& values, const py::object& owner)
 {
     const auto pairs = static_cast<py::ssize_t>(run.history().by_pair.pairs);
     return view_of(values.data(), {pairs > 0 ? static_cast<py::ssize_t>(values.size()) / pairs : 0, pairs}, owner);

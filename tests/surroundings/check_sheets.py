@@ -20,8 +20,7 @@ office = "--office" in sys.argv
 NS = {"m": "http://schemas.openxmlformats.org/spreadsheetml/2006/main"}
 FUNCTIONS = {"SQRT": math.sqrt, "ABS": abs, "MAX": max, "MIN": min, "SUM": lambda *terms: sum(terms),
              "IF": lambda test, then, otherwise: then if test else otherwise}
-# Sums of pairs that are kept with seven digits.
-SEVEN_DIGITS, EXACT = 1e-5, 1e-9
+EXACT = 1e-9
 
 
 def sheets(file):
@@ -96,7 +95,7 @@ def comparisons(cells, values):
     return lines
 
 
-def check(file, tolerance, least):
+def check(file, least):
     kept = sheets(file)
     again = by_office(file) if office else None
     result = {}
@@ -108,7 +107,7 @@ def check(file, tolerance, least):
         lines = comparisons(cells, values)
         assert len(lines) >= least, (file, name, lines)
         for quantity, (of_sheet, of_program, _) in lines.items():
-            assert off(of_sheet, of_program) < tolerance, (file, name, quantity, of_sheet, of_program)
+            assert off(of_sheet, of_program) < EXACT, (file, name, quantity, of_sheet, of_program)
         result[name] = (cells, lines)
     return result
 
@@ -157,7 +156,7 @@ with tempfile.TemporaryDirectory() as folder:
     for scene in scenes:
         file = folder / f"{scene.stem}.xlsx"
         answer = json.loads(run("screen", scene, "--rigid-only", "--sheet", file, "--json", "--quiet"))
-        found = check(file, EXACT, 10)
+        found = check(file, 10)
         states = answer["limit_equilibrium"]
         assert len(states) == len(found)
         for state, (cells, lines) in zip(states, found.values()):
@@ -174,7 +173,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     file = folder / "base.xlsx"
     answer = json.loads(run("fe", root / "examples" / "own_dam.toml", "--no-mesh-error", "--sheet", file, "--json", "--quiet"))
-    found = check(file, SEVEN_DIGITS, 3)
+    found = check(file, 3)
     assert len(found) == len(answer["runs"])
     for cells, _ in found.values():
         factor = next(f"B{cell[1:]}" for cell, (_, text) in cells.items() if text == "sliding factor with the peak strength")

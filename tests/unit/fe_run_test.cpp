@@ -168,12 +168,12 @@ TEST(FeRun, history_of_rocking_and_pairs)
         for (Eigen::Index i = 0; i < h.by_pair.pairs; ++i) {
             const double area = result.pair_area[i];
             const std::size_t k = h.by_pair.at(row, i);
-            normal += area * static_cast<double>(h.by_pair.pressure[k]);
-            slip += area / length * static_cast<double>(h.by_pair.slip[k]);
+            normal += area * h.by_pair.pressure[k];
+            slip += area / length * h.by_pair.slip[k];
             if (h.by_pair.state[k] == ContactState::open) open += area;
         }
-        EXPECT_NEAR(normal, h.normal_force[row], 1e-6 * weight); // float: 6e-8 of each
-        EXPECT_NEAR(slip, h.slip[row], 1e-6 * result.max_slip);  // the same
+        EXPECT_NEAR(normal, h.normal_force[row], 1e-12 * weight);
+        EXPECT_NEAR(slip, h.slip[row], 1e-12 * result.max_slip);
         EXPECT_NEAR(open, h.open_length[row], 1e-9 * length);
         EXPECT_NEAR(h.moment[row], h.normal_force[row] * (h.normal_position[row] - length / 2), 1e-9 * weight * length);
         EXPECT_EQ(h.rocking[row] == 0.0, h.largest_opening[row] == 0.0);

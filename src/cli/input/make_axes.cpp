@@ -406,7 +406,8 @@ std::vector<std::string> word_list(const std::string& text, const std::string& f
                        fmt::format("{} {}: \"{}\" is not known.{}", flag, text, word,
                                    near.empty() ? "" : fmt::format(" Did you mean {}?", near)),
                        fmt::format("{}", fmt::join(allowed, ", ")),
-                       fmt::format("for example  {} {}", flag, allowed.empty() ? "a,b" : allowed.front())});
+                       near.empty() ? fmt::format("for example  {} {}", flag, allowed.empty() ? "a,b" : allowed.front())
+                                    : fmt::format("write  {} \"{}\"", flag, near)});
     }
     return words;
 }

@@ -239,10 +239,10 @@ namespace {
 constexpr std::size_t largest_instants = 150; ///< of one record alone
 
 /// Values of the pairs at one row of the history, in MPa.
-std::vector<double> row_values(const fe2d::PairHistory& pairs, const std::vector<float>& values, std::size_t row)
+std::vector<double> row_values(const fe2d::PairHistory& pairs, const std::vector<double>& values, std::size_t row)
 {
     std::vector<double> out;
-    for (Eigen::Index i = 0; i < pairs.pairs; ++i) out.push_back(1e-6 * static_cast<double>(values[pairs.at(row, i)]));
+    for (Eigen::Index i = 0; i < pairs.pairs; ++i) out.push_back(1e-6 * values[pairs.at(row, i)]);
     return out;
 }
 
@@ -256,7 +256,7 @@ std::vector<std::size_t> shown_rows(std::size_t rows, std::size_t largest, std::
     return list;
 }
 
-Chart chart_of(const RunView& view, const std::string& what, const std::vector<float>& values)
+Chart chart_of(const RunView& view, const std::string& what, const std::vector<double>& values)
 {
     const fe2d::RunResult& fe = view.run.fe;
     const fe2d::RunHistory& h = fe.history;

@@ -170,9 +170,9 @@ std::string clauses(const std::string& sentence, std::size_t characters)
     std::size_t end = 0;
     for (std::size_t at = 0; at < sentence.size(); ++at) {
         const bool ends = at + 1 == sentence.size() ||
-                          (std::string_view(",;.:").find(sentence[at]) != std::string_view::npos && sentence[at + 1] == ' ');
+                          (std::string_view(",;.").find(sentence[at]) != std::string_view::npos && sentence[at + 1] == ' ');
         if (!ends) continue;
-        const std::size_t here = std::string_view(",;.:").find(sentence[at]) != std::string_view::npos ? at : at + 1;
+        const std::size_t here = std::string_view(",;.").find(sentence[at]) != std::string_view::npos ? at : at + 1;
         if (text_width(sentence.substr(0, here)) > characters) break;
         end = here;
     }

@@ -16,7 +16,7 @@ BaseInstant worst_instant(const ContactRun& run, const Contact& strength)
     const auto factor = [&](std::size_t row) {
         double bonded = 0.0;
         for (std::size_t i = 0; i < pairs; ++i)
-            if (by_pair.pressure[row * pairs + i] > 0.0f) bonded += run.fe.pair_area[static_cast<Eigen::Index>(i)];
+            if (by_pair.pressure[row * pairs + i] > 0.0) bonded += run.fe.pair_area[static_cast<Eigen::Index>(i)];
         const double shear = std::abs(h.shear_force[row]);
         const double resisting = strength.cohesion * bonded + friction * std::max(0.0, h.normal_force[row]);
         return shear > 0.0 ? resisting / shear : std::numeric_limits<double>::infinity();
@@ -67,7 +67,6 @@ void write_base_sheets(const std::filesystem::path& file, const Contact& strengt
             normal.push_back(out[0]), shear.push_back(out[1]), moment.push_back(out[2]), bonded.push_back(out[3]);
         }
         book.title("Sums: by the cells above, by the program, their difference");
-        book.note("Pairs are kept with seven digits: differences of some 1e-7 are theirs.");
         const Formula n = book.put("N'", sum(normal), "N/m"), t = book.put("T", sum(shear), "N/m");
         book.put("sliding factor with the peak strength", (cohesion * sum(bonded) + friction * max(0.0, n)) / abs(t), "-",
                  "of this sheet alone: (c A' + mu N')/|T|, A' the length under pressure");
