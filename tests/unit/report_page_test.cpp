@@ -1,4 +1,5 @@
 #include "core/file.hpp"
+#include "pages/report/answer.hpp"
 #include "pages/report/page.hpp"
 #include "pages/report/chart.hpp"
 #include "pages/report/json.hpp"
@@ -218,6 +219,28 @@ TEST(ReportSketch, IsToScaleWithYUp)
     const std::string svg = sketch.svg("a");
     EXPECT_NE(svg.find("viewBox=\"0 0 100 200\""), std::string::npos);
     EXPECT_NE(svg.find("points=\"0.0,200.0 100.0,200.0 20.0,150.0 \""), std::string::npos);
+}
+
+TEST(AnswerLine, NamesWhatFailsAndEndsAtAWholeClause)
+{
+    const auto line = [](const Headline& headline) {
+        Answer answer(nlohmann::ordered_json::object());
+        answer.headline(headline);
+        return answer.line();
+    };
+    EXPECT_EQ(line({"The dam slides 2.9 mm at most.", Outcome::fail,
+                    "Slip: Below the allowable as a rigid block; elasticity not checked; load combinations: FAIL usual 1.2 < 3.0"}),
+              "FAIL; Slip: Below the allowable as a rigid block: The dam slides 2.9 mm at most\n");
+    EXPECT_EQ(line({"The dam slides 2.9 mm at most.", Outcome::fail, "Slip: PASS; load combinations: FAIL usual 1.2 < 3.0"}),
+              "Slip: PASS; load combinations: FAIL usual 1.2 < 3.0: The dam slides 2.9 mm at most\n");
+    EXPECT_EQ(line({"The dam slides 377.8 mm at most on clay seam (record A), by rigid blocks. On its base: 20.5 mm at most, by the rigid "
+                    "block, which is no bound for an elastic dam.",
+                    Outcome::fail, "FAIL on clay seam"}),
+              "FAIL on clay seam: The dam slides 377.8 mm at most on clay seam, by rigid blocks. On its base: 20.5 mm at most\n");
+    EXPECT_EQ(line({"The dam slides 377.8 mm at most on clay seam. On its base: 20.5 mm at most over three records and both polarities of "
+                    "each of them.",
+                    Outcome::fail, "FAIL on clay seam"}),
+              "FAIL on clay seam: The dam slides 377.8 mm at most on clay seam\n");
 }
 
 } // namespace

@@ -268,8 +268,10 @@ void Answer::next(const std::string& command)
 
 std::string Answer::line() const
 {
-    const std::string verdict = clauses(without_stop(without_asides(headline_.verdict)), brief_columns / 2),
-                      sentence = without_stop(without_asides(visible(headline_.sentence, LineEnds::replaced)));
+    std::string verdict = clauses(without_stop(without_asides(headline_.verdict)), brief_columns / 2);
+    if (headline_.outcome == Outcome::fail && verdict.find("FAIL") == std::string::npos) // what fails had no room
+        verdict = verdict.empty() ? "FAIL" : "FAIL; " + verdict;
+    const std::string sentence = without_stop(without_asides(visible(headline_.sentence, LineEnds::replaced)));
     const std::string begin = verdict.empty() || sentence.empty() ? verdict : verdict + ": ";
     return begin + clauses(sentence, brief_columns - text_width(begin)) + "\n";
 }
