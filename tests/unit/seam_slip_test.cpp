@@ -45,6 +45,42 @@ TEST(SeamSlip, IsThatOfAnIndependentIntegration)
     }
 }
 
+/// What is kept of a seam for many frictions gives the bits of a seam made anew, and serves no other path or wedge.
+TEST(SeamGround, ServesSeamsOfOtherStrengthsAlone)
+{
+    Scene scene = exact::seam_scene();
+    Seam& seam = scene.seams[0];
+    seam.wedge->angles.clear();
+    const sliding::SeamGround ground(scene, seam);
+    ASSERT_GT(ground.scan().size(), 100u);
+    std::vector<double> yields;
+    for (const double friction : {0.55, 0.7, 0.9})
+        for (const InterfaceModel model : {InterfaceModel::smooth, InterfaceModel::friction}) {
+            Seam other = seam;
+            other.strength.friction = friction;
+            other.wedge->friction = friction + 0.1;
+            other.interface.model = model;
+            other.interface.friction = 0.3;
+            ASSERT_TRUE(ground.serves(other));
+            const sliding::SeamPlane kept = sliding::seam_plane(scene, other, {}, ground), anew = sliding::seam_plane(scene, other, {});
+            EXPECT_EQ(kept.yield, anew.yield);
+            EXPECT_EQ(kept.angle, anew.angle);
+            EXPECT_EQ(kept.yield, sliding::seam_plane(scene, other, {{"static"}}).yield); // searched with its factors
+            yields.push_back(kept.yield);
+        }
+    EXPECT_GT(yields.back(), yields.front() + 0.1);
+    const auto serves = [&](auto change) {
+        Seam other = seam;
+        change(other);
+        return ground.serves(other);
+    };
+    EXPECT_FALSE(serves([](Seam& s) { s.wedge->search_to -= 0.1; }));
+    EXPECT_FALSE(serves([](Seam& s) { s.wedge->distance += 1.0; }));
+    EXPECT_FALSE(serves([](Seam& s) { s.wedge.reset(); }));
+    EXPECT_FALSE(serves([](Seam& s) { s.uplift = UpliftModel::linear; }));
+    EXPECT_FALSE(serves([](Seam& s) { s.depth = s.depth.value_or(8.0) + 1.0; }));
+}
+
 TEST(SeamSlip, StagesFollowStrengthDrainsAndDilation)
 {
     Scene scene = exact::seam_scene();
