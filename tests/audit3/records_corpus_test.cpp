@@ -638,6 +638,14 @@ TEST(Audit3, B4_CorpusHasEveryAgency)
     EXPECT_GE(corpus().size(), 60u);
 }
 
+/// A column that is not there, one number a line with a column asked for, "(g's)", an uneven step, a rate of 1.7e38.
+TEST(Audit3, B5_ColumnUnitStepAndRateAreCasesOfTheCorpus)
+{
+    const std::vector<Layout> files = corpus();
+    for (const char* name : {"column_that_is_not_there", "peer_column_3", "slammer_comments", "smc_film_uneven", "smc_film_even", "smc_impossible_rate"})
+        EXPECT_EQ(std::count_if(files.begin(), files.end(), [&](const Layout& file) { return file.name == name; }), 1) << name;
+}
+
 // The last number of a file of unequal numbers, without a line end, may have lost its exponent: a remark.
 TEST(Audit3, D_RecordCutExponent)
 {
