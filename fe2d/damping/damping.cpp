@@ -20,15 +20,15 @@ std::size_t mode_index(int mode, const std::vector<ModalMass>& modes, DampingCho
 {
     const auto index = static_cast<std::size_t>(std::max(mode, 1) - 1);
     if (index < modes.size()) return index;
-    choice.notes.push_back(fmt::format("damping: mode {} was not found, mode {} takes its place", mode, modes.size()));
+    choice.notes.push_back({NoteKind::mode_missing, {std::int64_t{mode}, static_cast<std::int64_t>(modes.size())}});
     return modes.size() - 1;
 }
 
 void note(const Damping& damping, DampingChoice& choice, double first, double second)
 {
-    choice.notes.push_back(fmt::format("damping: {:g} % at {:.4g} and {:.4g} Hz, a_M = {:.4g} 1/s, b_K = {:.4g} s",
-                                       100.0 * damping.ratio, hertz(first), hertz(second), choice.constants.mass,
-                                       choice.constants.stiffness));
+    choice.notes.push_back({NoteKind::damping_of_modes,
+                            {100.0 * damping.ratio, hertz(first), hertz(second), choice.constants.mass,
+                             choice.constants.stiffness}});
 }
 
 void choose_constants(const Damping& damping, const std::vector<ModalMass>& modes, double total_mass,
@@ -81,8 +81,7 @@ DampingChoice choose_damping(const Damping& damping, const std::vector<ModalMass
     if (damping.mass_coefficient) choice.constants.mass = *damping.mass_coefficient;
     if (damping.stiffness_coefficient) choice.constants.stiffness = *damping.stiffness_coefficient;
     if (damping.mass_coefficient || damping.stiffness_coefficient)
-        choice.notes.push_back(fmt::format("damping: as given, a_M = {:.4g} 1/s, b_K = {:.4g} s", choice.constants.mass,
-                                           choice.constants.stiffness));
+        choice.notes.push_back({NoteKind::damping_given, {choice.constants.mass, choice.constants.stiffness}});
     return choice;
 }
 
@@ -170,10 +169,9 @@ std::vector<double> sign_changes(const Imbalance& f, double from, double to, int
 void warn_of_missing_mass(ModifiedRayleigh& result, const ModifiedRayleighOptions& options, std::size_t modes)
 {
     if (result.mass_share < options.required_mass)
-        result.warnings.push_back(fmt::format(
-            "modified Rayleigh damping: {} modes carry {:.1f} % of the horizontal mass; at least {:.0f} % are needed, "
-            "use more modes",
-            modes, 100.0 * result.mass_share, 100.0 * options.required_mass));
+        result.warnings.push_back({NoteKind::modes_lack_mass,
+                                   {static_cast<std::int64_t>(modes), 100.0 * result.mass_share,
+                                    100.0 * options.required_mass}});
 }
 
 } // namespace
@@ -211,13 +209,9 @@ ModifiedRayleigh modified_rayleigh(const std::vector<ModalMass>& modes,
     result.imbalance = imbalance(result.second_frequency);
     result.relative_imbalance = imbalance.wanted() > 0.0 ? std::abs(result.imbalance) / imbalance.wanted() : 0.0;
     if (result.status == ModifiedRayleighStatus::no_solution)
-        result.warnings.push_back(fmt::format("modified Rayleigh damping: no second frequency between {:.3g} and "
-                                              "{:.3g} Hz balances the base shear; ordinary "
-                                              "Rayleigh damping on {:.3g} and {:.3g} Hz is used, which changes the "
-                                              "base shear by |dS| = {:.3g} kN/m ({:.1f} %)",
-                                              hertz(first), hertz(3.0 * modes.back().frequency), hertz(first),
-                                              hertz(result.second_frequency), 1e-3 * std::abs(result.imbalance),
-                                              100.0 * result.relative_imbalance));
+        result.warnings.push_back({NoteKind::no_second_frequency,
+                                   {hertz(first), hertz(3.0 * modes.back().frequency), hertz(result.second_frequency),
+                                    1e-3 * std::abs(result.imbalance), 100.0 * result.relative_imbalance}});
     return result;
 }
 

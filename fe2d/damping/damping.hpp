@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/note.hpp"
 #include "scene/scene.hpp"
 
 #include <Eigen/Core>
@@ -62,7 +63,7 @@ struct ModifiedRayleigh {
     double imbalance = 0.0;           ///< ΔS at ω_j [N/m]
     double relative_imbalance = 0.0;  ///< |ΔS| / Σ S_a(ω_n, ζ) m_eff,n [-]
     double mass_share = 0.0;          ///< effective mass of all modes given over the total [-]
-    std::vector<std::string> warnings;
+    std::vector<Note> warnings;
 };
 
 /// Rayleigh constants whose base shear over all modes is the one of the ratio ζ in every mode, Spears & Jensen (2012);
@@ -86,7 +87,7 @@ struct DampingChoice {
     RayleighConstants constants;              ///< zero: no damping
     MassDamping mass = MassDamping::relative; ///< which velocity a_M resists
     std::optional<ModifiedRayleigh> modified; ///< how the constants were found, where they are modified Rayleigh's
-    std::vector<std::string> notes;           ///< what was chosen and what the user should know
+    std::vector<Note> notes;                  ///< what was chosen and what the user should know
 };
 
 /// Modes to compute for a choice: the second Rayleigh mode at least; modified Rayleigh needs most of the mass, 20 as a rule.

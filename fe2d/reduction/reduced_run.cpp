@@ -19,30 +19,26 @@ namespace {
 
 constexpr int coarse_pairs = 22; ///< of the plane of the estimate
 
-/// @param length  of the base [m]
-std::string message_of(const RunResult& r, double length)
+/// How a run on few modes ended, but for self-excited sliding. @param length  of the base [m] @param tolerance  of the slip [-]
+Note ending_of(const RunResult& r, double length, double tolerance)
 {
     switch (r.status) {
     case Status::not_resolved:
-        return fmt::format("Contact was not resolved in {} of {} steps, largest residual {:.1e} of N'.",
-                           r.counts.unresolved, r.counts.steps, r.counts.largest_residual);
+        return {NoteKind::contact_unresolved,
+                {std::int64_t{r.counts.unresolved}, std::int64_t{r.counts.steps}, r.counts.largest_residual}};
     case Status::runs_away:
-        return fmt::format("Runs away: slides further on the base than its {:.4g} m, where the model no longer holds.",
-                           length);
+        return {NoteKind::runs_away, {"base", length}};
     case Status::interrupted:
-        return fmt::format("Interrupted at {:.2f} s.", r.end_time);
+        return {NoteKind::interrupted, {r.end_time, 1e3 * r.slip}};
     case Status::diverged:
-        return fmt::format("Stopped at {:.2f} s: the kinetic energy is no longer a number.", r.end_time);
+        return {NoteKind::not_a_number, {r.end_time}};
     case Status::tolerance_missed:
-        return fmt::format(
-            "Largest slip {:.4g} mm ± {:.2g} mm with steps of {:.4g} s: more than time.slip_tolerance allows. Give a "
-            "smaller time.dt_s, or a larger slip_tolerance.",
-            1e3 * r.max_slip, 1e3 * r.slip_error, r.dt);
+        return {NoteKind::largest_slip_open, {"base", 1e3 * r.max_slip, 1e3 * r.slip_error, r.dt, tolerance}};
     default:
-        return fmt::format("Slip {:.4g} mm{} with {} elastic modes.", 1e3 * r.slip,
-                           std::isnan(r.truncation_error) ? "" : fmt::format(" ± {:.2g} mm", 1e3 * r.truncation_error),
-                           r.modes);
+        break;
     }
+    if (std::isnan(r.truncation_error)) return {NoteKind::slip_of_modes, {1e3 * r.slip, std::int64_t{r.modes}}};
+    return {NoteKind::slip_of_modes_error, {1e3 * r.slip, 1e3 * r.truncation_error, std::int64_t{r.modes}}};
 }
 
 } // namespace
@@ -60,13 +56,13 @@ ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions
     why_not_ = obstacle();
     if (!why_not_.empty()) return;
     DamModes kept = dam_modes(full.structure(), wanted_);
-    if (!kept.regular) why_not_ = "The dam's modes did not converge.";
+    if (!kept.regular) why_not_ = {{NoteKind::modes_not_found}};
     if (const WaterBody* water = full.structure().water(); water && why_not_.empty()) {
         try {
             water_ = std::make_shared<const ReducedWater>(reduce_water(*water, kept.face, highest_frequency()));
-            if (!water_->report.passed()) why_not_ = water_->missed_gate();
+            if (!water_->report.passed()) why_not_ = {water_->missed_gate()};
         } catch (const std::runtime_error& error) {
-            why_not_ = fmt::format("The acoustic water cannot be reduced ({}): run  damslip fe  without --reduced.", error.what());
+            why_not_ = {{NoteKind::water_not_reduced, {error.what()}}};
         }
     }
     if (!why_not_.empty()) return;
@@ -86,14 +82,11 @@ double ReducedRun::highest_frequency() const
     return 2.0 * std::numbers::pi * options_.wave_frequency;
 }
 
-std::string ReducedRun::obstacle() const
+std::vector<Note> ReducedRun::obstacle() const
 {
     if (!full_.why_not().empty()) return full_.why_not();
-    if (full_.structure().slides_far())
-        return "A reduced run needs small sliding: each dam node stays opposite its rock node.";
-    if (full_.in_motion().rock_moves())
-        return "A reduced run has no unknowns of a rock box: rock that radiates or is massless, not "
-               "foundation.boundary = \"fixed\" or \"viscous\".";
+    if (full_.structure().slides_far()) return {{NoteKind::modes_need_small_slip}};
+    if (full_.in_motion().rock_moves()) return {{NoteKind::modes_need_free_rock}};
     return {};
 }
 
@@ -135,7 +128,7 @@ RunResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contac
     result.slip_error = std::numeric_limits<double>::quiet_NaN();
     result.seconds.model = seconds_;
     if (!model_) {
-        result.message = why_not_;
+        result.notes = why_not_;
         return result;
     }
     const ReducedSystem& system = model_->system();
@@ -151,7 +144,7 @@ RunResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contac
     start.balance = result.stages.back();
     if (start.balance.status != StageStatus::ok) {
         result.status = status_of(start.balance.status);
-        result.message = start.balance.text();
+        result.notes = start.balance.notes();
         return result;
     }
 
@@ -186,8 +179,10 @@ RunResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contac
     result.seconds.statics += clock.seconds();
 
     if (result.status != Status::interrupted && result.counts.unresolved > 0) result.status = Status::not_resolved;
-    result.message = result.status == Status::self_excited ? self_excited_sentence(scene_, result.slip, result.run_out)
-                                                           : message_of(result, length);
+    if (result.status == Status::self_excited)
+        result.notes = self_excited_notes(scene_, result.slip, result.run_out);
+    else
+        result.notes = {ending_of(result, length, scene_.time.slip_tolerance)};
     return result;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/note.hpp"
 #include "fe2d/reduction/reduced_contact.hpp"
 #include "fe2d/reduction/reduced_operator.hpp"
 #include "fe2d/run/earthquake_run.hpp"
@@ -40,7 +41,7 @@ public:
                       const std::optional<int>& halvings = {},
                       TruncationEstimate estimate = TruncationEstimate::made) const;
     /// Why no run has an answer: a sentence for the user; empty: there is a model.
-    const std::string& why_not() const { return why_not_; }
+    const std::vector<Note>& why_not() const { return why_not_; }
 
 private:
     /// What the time loop reads of a motion.
@@ -63,7 +64,7 @@ private:
     };
     ReducedSystem system_of(DamModes modes) const;
     double highest_frequency() const; ///< ω up to which pressures are to be right [rad/s]
-    std::string obstacle() const;     ///< of the scene; empty: none
+    std::vector<Note> obstacle() const; ///< of the scene; empty: none
     const Estimators& estimators() const;
     /// From rest to the end of the run-out; history, slip and counts go into `result`.
     /// @param balance  the run is watched for sliding by itself; null: it is not
@@ -88,7 +89,7 @@ private:
     int wanted_;                                ///< elastic modes asked for
     std::shared_ptr<const ReducedWater> water_; ///< null: none
     std::unique_ptr<const ReducedModel> model_;
-    std::string why_not_; ///< there is no model
+    std::vector<Note> why_not_; ///< there is no model
     CoarsePlane coarse_;  ///< of the truncation estimate
     mutable std::once_flag estimators_made_;
     mutable Estimators estimators_; ///< made by the first run that estimates

@@ -298,10 +298,9 @@ private:
 
 } // namespace
 
-std::string ReducedWater::missed_gate() const
+Note ReducedWater::missed_gate() const
 {
-    return fmt::format("The acoustic water's reduction errs by {:.2g} %, {:.2g} % are allowed: run without --reduced.",
-                       100.0 * report.error, 100.0 * report.wanted);
+    return {NoteKind::water_gate_missed, {100.0 * report.error, 100.0 * report.wanted}};
 }
 
 ReducedWater reduce_water(const WaterBody& water, const MatrixXd& motions, double highest,

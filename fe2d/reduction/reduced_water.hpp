@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/note.hpp"
 #include "fe2d/rock/reduced_rock.hpp"
 #include "fe2d/run/water_body.hpp"
 
@@ -34,7 +35,7 @@ struct ReducedWater {
     Eigen::Index count() const { return mass.rows(); }
     Eigen::Index pressures() const { return count() - momenta; }
     /// A reduction that missed its gate says here how far it errs, what is allowed and what the user can do.
-    std::string missed_gate() const;
+    Note missed_gate() const;
 };
 
 /// Basis: real and imaginary part of the pressures at frequencies up to the highest (three to the distance of two of the

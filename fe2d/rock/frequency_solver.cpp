@@ -203,21 +203,21 @@ void FrequencySolver::Implementation::solve_in_place(MatrixXcd& b) const
 {
     const std::vector<Front>& fronts = elimination.fronts;
     const Index n = b.rows(), count = b.cols();
-    const int lanes = static_cast<int>(count), ldb = static_cast<int>(n);
+    const int loads = static_cast<int>(count), ldb = static_cast<int>(n);
     MatrixXcd x(n, count), rest;
     for (Index i = 0; i < n; ++i) x.row(elimination.new_of[static_cast<std::size_t>(i)]) = b.row(i);
     for (const Front& front : fronts) {
         const int size = front.size(), columns = front.columns, others = size - columns;
         const Complex* const own = panels.data() + front.place;
         Complex* const here = x.data() + front.first;
-        ztrsm_("L", "L", "N", "N", &columns, &lanes, &one, own, &size, here, &ldb);
+        ztrsm_("L", "L", "N", "N", &columns, &loads, &one, own, &size, here, &ldb);
         if (others == 0) continue;
         rest.setZero(others, count);
-        zgemm_("N", "N", &others, &lanes, &columns, &minus_one, own + columns, &size, here, &ldb, &one, rest.data(),
+        zgemm_("N", "N", &others, &loads, &columns, &minus_one, own + columns, &size, here, &ldb, &one, rest.data(),
                &others);
-        for (Index lane = 0; lane < count; ++lane)
+        for (Index load = 0; load < count; ++load)
             for (int k = 0; k < others; ++k)
-                x(front.rows[static_cast<std::size_t>(columns + k)], lane) += rest(k, lane);
+                x(front.rows[static_cast<std::size_t>(columns + k)], load) += rest(k, load);
     }
     for (auto it = fronts.rbegin(); it != fronts.rend(); ++it) {
         const Front& front = *it;
@@ -226,13 +226,13 @@ void FrequencySolver::Implementation::solve_in_place(MatrixXcd& b) const
         Complex* const here = x.data() + front.first;
         if (others > 0) {
             rest.resize(others, count);
-            for (Index lane = 0; lane < count; ++lane)
+            for (Index load = 0; load < count; ++load)
                 for (int k = 0; k < others; ++k)
-                    rest(k, lane) = x(front.rows[static_cast<std::size_t>(columns + k)], lane);
-            zgemm_("T", "N", &columns, &lanes, &others, &minus_one, own + columns, &size, rest.data(), &others, &one,
+                    rest(k, load) = x(front.rows[static_cast<std::size_t>(columns + k)], load);
+            zgemm_("T", "N", &columns, &loads, &others, &minus_one, own + columns, &size, rest.data(), &others, &one,
                    here, &ldb);
         }
-        ztrsm_("L", "L", "T", "N", &columns, &lanes, &one, own, &size, here, &ldb);
+        ztrsm_("L", "L", "T", "N", &columns, &loads, &one, own, &size, here, &ldb);
     }
     for (Index i = 0; i < n; ++i) b.row(i) = x.row(elimination.new_of[static_cast<std::size_t>(i)]);
 }

@@ -273,7 +273,7 @@ private:
     {
         LinearSolver solver({.factorisation = Factorisation::supernodal});
         if (!solver.factorise(box_.stiffness).ok())
-            throw std::runtime_error("the rock's box cannot be factorised: " + solver.report().text());
+            throw std::runtime_error("the rock's box cannot be factorised: " + text_of(solver.report().note()));
         const MatrixXd x = solver.solve(on_box(MatrixXd::Identity(rows(), rows())));
         flexibility_ = symmetric(on_interface(x));
         add(product('N', x, loads_), (loads_.transpose() * flexibility_ * loads_).diagonal());

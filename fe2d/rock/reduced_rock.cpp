@@ -8,11 +8,9 @@
 
 namespace damslip::fe2d {
 
-std::string ReductionReport::missed_gate() const
+Note ReductionReport::missed_gate() const
 {
-    return fmt::format("The radiating rock's reduction errs by {:.2g} %, {:.2g} % are allowed: give a smaller "
-                       "foundation.wave_frequency_Hz.",
-                       100.0 * error, 100.0 * wanted);
+    return {NoteKind::rock_gate_missed, {100.0 * error, 100.0 * wanted}};
 }
 
 using Eigen::Index;

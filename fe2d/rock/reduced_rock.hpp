@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/note.hpp"
 #include "fe2d/time/energy.hpp"
 #include "fe2d/time/scheme.hpp"
 
@@ -23,7 +24,7 @@ struct ReductionReport {
     double seconds = 0.0;
 
     bool passed() const { return error <= wanted; }
-    std::string missed_gate() const; ///< of one that did not pass: a sentence with the figures and what to do
+    Note missed_gate() const; ///< of one that did not pass
 };
 
 /// Rock with mass that lets waves out, reduced to its interface: two passive bodies in series,

@@ -138,44 +138,44 @@ ContactReport DynamicContact::advance(double dt, const GroundAcceleration& groun
     return step(dt, ground, law, 0);
 }
 
-/// step() of each lane, its two passes made of all together.
-void DynamicContact::advance(std::span<Lane> lanes, double dt)
+/// step() of each run, its two passes made of all together.
+void DynamicContact::advance(std::span<BatchedRun> batch, double dt)
 {
-    if (lanes.empty()) return;
-    auto& [vectors, tried, whole, gathered] = lanes.front().run->together_;
+    if (batch.empty()) return;
+    auto& [vectors, tried, whole, gathered] = batch.front().run->together_;
     vectors.clear();
     tried.clear();
     whole.clear();
-    for (Lane& lane : lanes) {
-        if (lane.run->cuts_.expected() > 0) {
-            lane.report = lane.run->step(dt, lane.ground, *lane.law, 0);
+    for (BatchedRun& batched : batch) {
+        if (batched.run->cuts_.expected() > 0) {
+            batched.report = batched.run->step(dt, batched.ground, *batched.law, 0);
             continue;
         }
-        lane.run->begin(dt, lane.ground);
-        tried.push_back(&lane);
-        vectors.push_back(&lane.run->stepper_.dam_vector());
+        batched.run->begin(dt, batched.ground);
+        tried.push_back(&batched);
+        vectors.push_back(&batched.run->stepper_.dam_vector());
     }
     if (tried.empty()) return;
     const InterfaceFactor& factor = tried.front()->run->stepper_.op().factor();
     factor.forward(vectors, gathered);
     vectors.clear();
-    for (Lane* lane : tried) {
-        DynamicContact& run = *lane->run;
-        lane->report = run.stepper_.solve(*lane->law, run.state_, run.rock_, run.counts_);
-        if (run.cut_after_contact(lane->report, 0)) {
-            lane->report = run.in_halves(dt, lane->ground, *lane->law, 0);
+    for (BatchedRun* batched : tried) {
+        DynamicContact& run = *batched->run;
+        batched->report = run.stepper_.solve(*batched->law, run.state_, run.rock_, run.counts_);
+        if (run.cut_after_contact(batched->report, 0)) {
+            batched->report = run.in_halves(dt, batched->ground, *batched->law, 0);
             continue;
         }
         run.stepper_.accept(run.state_);
-        whole.push_back(lane);
+        whole.push_back(batched);
         vectors.push_back(&run.stepper_.dam_vector());
     }
     factor.backward(vectors, gathered);
-    for (Lane* lane : whole)
-        if (lane->run->cut_after_step(0))
-            lane->report = lane->run->in_halves(dt, lane->ground, *lane->law, 0);
+    for (BatchedRun* batched : whole)
+        if (batched->run->cut_after_step(0))
+            batched->report = batched->run->in_halves(dt, batched->ground, *batched->law, 0);
         else
-            lane->run->end(lane->ground, lane->report, *lane->law);
+            batched->run->end(batched->ground, batched->report, *batched->law);
 }
 
 std::size_t DynamicContact::bytes() const

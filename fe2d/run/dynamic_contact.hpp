@@ -66,14 +66,14 @@ public:
     const std::vector<double>& local_errors() const { return cuts_.local_errors(); }
 
     /// One of several runs that share their operators and go on in step.
-    struct Lane {
+    struct BatchedRun {
         DynamicContact* run = nullptr;
         const ContactLaw* law = nullptr;
         GroundAcceleration ground; ///< at the end of the step
         ContactReport report;
     };
-    /// advance() of each lane, with the same bits, in common passes over the factor.
-    static void advance(std::span<Lane> lanes, double dt);
+    /// advance() of each run, with the same bits, in common passes over the factor.
+    static void advance(std::span<BatchedRun> batch, double dt);
 
     /// Of the reservoir's waves at the upstream end of the base, for water that flows along it, until the next call [Pa].
     void set_wave_pressure(double pressure);
@@ -111,10 +111,10 @@ private:
     LargestSlips largest_slips_;
     ContactStates states_before_; ///< work space: at the start of the step
 
-    /// Work space of steps of several lanes, kept by the first of them.
+    /// Work space of steps of several runs, kept by the first of them.
     struct Together {
         std::vector<Eigen::VectorXd*> vectors;
-        std::vector<Lane*> tried, whole;
+        std::vector<BatchedRun*> tried, whole;
         std::vector<double> gathered;
     };
     Together together_;

@@ -65,7 +65,7 @@ public:
     bool going() const { return going_; }
     bool makes_steps() const { return going_ && dynamics_.within_reach(); }
     DynamicContact& dynamics() { return dynamics_; }
-    DynamicContact::Lane lane(double time) { return {&dynamics_, &strength_.law(), ground_.at(time), {}}; }
+    DynamicContact::BatchedRun batched(double time) { return {&dynamics_, &strength_.law(), ground_.at(time), {}}; }
     long shown_rows() const { return shown_rows_; } ///< of all samples of the motion
     const Strength& strength() const { return strength_; }
 
@@ -99,7 +99,7 @@ private:
 };
 
 /// One motion and strength of several that are run together: its static state, and the result so far.
-struct EarthquakeRun::Lane {
+struct EarthquakeRun::BatchedRun {
     Strength strength;
     ContactMemory memory;
     Contact contact = {}; ///< strength of the base

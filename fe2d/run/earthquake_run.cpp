@@ -128,7 +128,7 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options) : scene_(sc
     stages_ = load_stages(scene_, *model_, options_.uplift,
                           options_.water_in_rock ? options_.water_in_rock(*model_) : Eigen::VectorXd());
     usable_ = structure_->regular();
-    if (!usable_) why_not_ = "The stiffness of dam or rock could not be factorised: a part is not held.";
+    if (!usable_) why_not_ = {{NoteKind::part_not_held}};
     part_done();
     find_damping();
     part_done();
@@ -155,13 +155,13 @@ std::shared_ptr<const ReducedRock> EarthquakeRun::let_radiate()
                               options_.wave_frequency, options_.rock_cache, options_.reducing_rock));
     } catch (const std::runtime_error& error) {
         usable_ = false;
-        why_not_ = fmt::format("Radiating rock: {}. Check [foundation], or write  mass = \"massless\".", error.what());
+        why_not_ = {{NoteKind::rock_cannot_radiate, {error.what()}}};
         return {};
     }
     if (const ReductionReport& report = radiating_->rock.report;
         !report.passed()) { // no slip on rock that is not right
         usable_ = false;
-        why_not_ = report.missed_gate();
+        why_not_ = {report.missed_gate()};
     }
     const Plane& plane = structure_->plane();
     const Index nodes = radiating_->rock.base() / 2; // of a seam they are the pairs
@@ -234,7 +234,8 @@ void EarthquakeRun::find_damping()
     const VectorXd frequency = bonded_frequencies(modes);
     if (frequency.size() < modes) {
         usable_ = false;
-        why_not_ = fmt::format("Rayleigh damping needs mode {}, and {} were found.", modes, frequency.size());
+        why_not_ = {
+            {NoteKind::damping_mode_missing, {std::int64_t{modes}, static_cast<std::int64_t>(frequency.size())}}};
         return;
     }
     damping_.constants =
@@ -296,13 +297,13 @@ std::vector<StageResult> EarthquakeRun::statics(StaticContact& statics, Strength
 
 /// A pass with 2^k sub-steps costs 2^k times the first; where halvings are chosen there are two passes at least, and
 /// passes that are left out count as made.
-RunProgress EarthquakeRun::progress_of(const Lane& lane, int halvings, long record_steps, long step, double dt) const
+RunProgress EarthquakeRun::progress_of(const BatchedRun& batched, int halvings, long record_steps, long step, double dt) const
 {
-    const bool chosen = !lane.steps && !scene_.time.substeps;
-    const int first = lane.steps ? lane.steps->halvings : scene_.time.substeps.value_or(0);
-    if (lane.steps_of_all > 0) { // a record of a sequence
-        step = lane.steps_before + std::min(step, record_steps);
-        record_steps = lane.steps_of_all;
+    const bool chosen = !batched.steps && !scene_.time.substeps;
+    const int first = batched.steps ? batched.steps->halvings : scene_.time.substeps.value_or(0);
+    if (batched.steps_of_all > 0) { // a record of a sequence
+        step = batched.steps_before + std::min(step, record_steps);
+        record_steps = batched.steps_of_all;
     }
     const long before = record_steps * ((1L << halvings) - (1L << first)), now = record_steps << halvings;
     const long more = chosen && halvings == first ? 2 * now : 0;
@@ -311,143 +312,136 @@ RunProgress EarthquakeRun::progress_of(const Lane& lane, int halvings, long reco
 }
 
 /// Has the dam, or the block above a lift joint, slid further than the plane below it is long, beyond what the step leaves
-/// open? There water, uplift and the plane itself are no longer those of the model. @returns one sentence; empty: no
-std::string EarthquakeRun::runs_away(const RunResult& result) const
+/// open? There water, uplift and the plane itself are no longer those of the model. @returns empty: no
+std::vector<Note> EarthquakeRun::runs_away(const RunResult& result) const
 {
     const ContactPlanes& planes = structure_->planes();
-    const auto sentence = [&](const std::string& plane, double slip, double error, Index index) -> std::string {
+    const auto away = [&](const std::string& plane, double slip, double error, Index index) -> std::vector<Note> {
         const double length = planes[index].length();
         if (!(slip - (std::isfinite(error) ? error : 0.0) > length)) return {};
-        return fmt::format("Runs away: slides further on the {} than its {:.4g} m, where the model no longer holds.",
-                           plane, length);
+        return {{NoteKind::runs_away, {plane, length}}};
     };
-    std::string away = sentence("base", result.max_slip, result.slip_error, 0);
-    for (std::size_t k = 0; away.empty() && k < result.lifts.size(); ++k)
-        away = sentence(result.lifts[k].plane, result.lifts[k].largest_slip, result.lifts[k].slip_error,
-                        static_cast<Index>(k + 1));
-    return away;
+    std::vector<Note> notes = away("base", result.max_slip, result.slip_error, 0);
+    for (std::size_t k = 0; notes.empty() && k < result.lifts.size(); ++k)
+        notes = away(result.lifts[k].plane, result.lifts[k].largest_slip, result.lifts[k].slip_error,
+                     static_cast<Index>(k + 1));
+    return notes;
 }
 
 /// What of the slip the step leaves open, of the plane where that is most against what time.slip_tolerance allows.
-std::string EarthquakeRun::missed_tolerance(const RunResult& result) const
+Note EarthquakeRun::missed_tolerance(const RunResult& result) const
 {
     const auto excess = [&](double slip, double error) { return error / std::max(slip, options_.smallest_slip); };
-    std::string where;
+    std::string where = "base";
     double slip = result.max_slip, error = result.slip_error;
     for (const LiftResult& lift : result.lifts)
         if (excess(lift.largest_slip, lift.slip_error) > excess(slip, error)) {
-            where = lift.plane + ": ";
+            where = lift.plane;
             slip = lift.largest_slip;
             error = lift.slip_error;
         }
-    return fmt::format(
-        "{}largest slip {:.4g} mm ± {:.3g} mm with steps of {:.4g} s: more than time.slip_tolerance = {:.3g} "
-        "allows. Give a smaller time.dt_s, or a larger slip_tolerance.",
-        where, 1e3 * slip, 1e3 * error, result.dt, scene_.time.slip_tolerance);
+    return {NoteKind::largest_slip_open, {where, 1e3 * slip, 1e3 * error, result.dt, scene_.time.slip_tolerance}};
 }
 
 namespace {
 
 /// Friction only takes energy. Over a step its work goes by the mean of the forces at both ends, so a dam that leaves the rock
 /// within a step after a hard landing is thrown back by the friction of that landing: steps that are too long for it.
-/// @returns a sentence where friction gave back more than a hundredth of the largest kinetic energy; else nothing
-std::string friction_gave_back(const RunHistory& history)
+/// @returns a note where friction gave back more than a hundredth of the largest kinetic energy
+std::vector<Note> friction_gave_back(const RunHistory& history)
 {
     double kinetic = 0.0;
     for (const Energy& energy : history.energy) kinetic = std::max(kinetic, energy.kinetic);
     const double gave = history.energy.empty() ? 0.0 : -history.energy.back().friction;
-    if (!(gave > 0.01 * kinetic)) return "";
-    return fmt::format(
-        " Friction gave {:.3g} J/m back, which it cannot: its force turns or ends within steps too long for that, "
-        "as where the whole base opens and closes. Use a smaller step (time.dt_s or time.substeps).",
-        gave);
+    if (!(gave > 0.01 * kinetic)) return {};
+    return {{NoteKind::friction_gave_back, {gave}}};
 }
 
 } // namespace
 
+/// Of a run that is neither self-excited nor ended by its statics.
+Note EarthquakeRun::ending(const RunResult& result) const
+{
+    switch (result.status) {
+    case Status::tolerance_missed:
+        return missed_tolerance(result);
+    case Status::sliding_at_end:
+        return {NoteKind::run_still_sliding, {1e3 * result.slip, scene_.sliding.run_out_max}};
+    case Status::not_resolved:
+        return {NoteKind::contact_unresolved,
+                {std::int64_t{result.counts.unresolved}, std::int64_t{result.counts.steps},
+                 result.counts.largest_residual}};
+    case Status::interrupted:
+        return {NoteKind::interrupted, {result.end_time, 1e3 * result.slip}};
+    case Status::left_plane:
+        return {NoteKind::beyond_mesh, {result.end_time, result.slip, scene_.contact.max_slip}};
+    case Status::diverged: {
+        const Energy& energy = result.history.energy.back();
+        if (-energy.numerical > energy.contact_normal)
+            return {NoteKind::scheme_gained, {result.end_time, -energy.numerical}};
+        return {NoteKind::contact_gained, {result.end_time, energy.contact_normal}};
+    }
+    default:
+        return {NoteKind::slip_at_rest, {1e3 * result.slip, result.end_time}};
+    }
+}
+
 void EarthquakeRun::judge(RunResult& result) const
 {
+    std::vector<Note>& notes = result.notes;
+    const auto add = [&notes](std::vector<Note> more) { notes.insert(notes.end(), more.begin(), more.end()); };
     if (result.status != Status::interrupted && result.counts.unresolved > 0) result.status = Status::not_resolved;
     const bool over = result.status == Status::at_rest || result.status == Status::sliding_at_end ||
                       result.status == Status::tolerance_missed;
-    if (const std::string away = over ? runs_away(result) : ""; !away.empty()) {
+    if (std::vector<Note> away = over ? runs_away(result) : std::vector<Note>(); !away.empty()) {
         result.status = Status::runs_away;
-        result.message = away;
+        notes = std::move(away);
     }
     // Where the state between two records does not stand, the records before it have been answered.
     const bool stopped_between = !result.between.empty() && result.rest().status != StageStatus::ok;
     const std::string event = judge_events(stopped_between ? Status::at_rest : result.status,
                                            structure_->planes()[0].length(), result.events);
-    if (!event.empty() && !result.message.empty()) result.message = "In \"" + event + "\": " + result.message;
+    if (!event.empty() && !notes.empty()) notes.insert(notes.begin(), {NoteKind::in_record, {event}});
     switch (result.status) {
-    case Status::at_rest:
-        result.message = fmt::format("Slip {:.4g} mm, at rest at {:.2f} s.", 1e3 * result.slip, result.end_time);
-        break;
-    case Status::tolerance_missed:
-        result.message = missed_tolerance(result);
-        break;
-    case Status::sliding_at_end:
-        result.message = fmt::format("Slip {:.4g} mm so far: still sliding {:.0f} s after the record's end.",
-                                     1e3 * result.slip, scene_.sliding.run_out_max);
-        if (result.run_out.sliding_factor > 1.0)
-            result.message += fmt::format(" At rest it would stand, FS {}, and three windows of steady sliding, which "
-                                          "would make it self-excited, were not seen: lengthen sliding.run_out_max_s.",
-                                          factor_text(result.run_out.sliding_factor));
-        break;
     case Status::self_excited:
-        result.message = self_excited_sentence(scene_, result.slip, result.run_out);
-        break;
-    case Status::not_resolved:
-        result.message = fmt::format("Contact was not resolved in {} of {} steps, largest residual {:.1e} of N'.",
-                                     result.counts.unresolved, result.counts.steps, result.counts.largest_residual);
+        notes = self_excited_notes(scene_, result.slip, result.run_out);
         break;
     case Status::interrupted:
-        if (result.message.empty())
-            result.message =
-                fmt::format("Interrupted at {:.2f} s, slip so far {:.4g} mm.", result.end_time, 1e3 * result.slip);
+        if (notes.empty()) notes = {ending(result)};
         break;
+    case Status::at_rest:
+    case Status::tolerance_missed:
+    case Status::sliding_at_end:
+    case Status::not_resolved:
     case Status::left_plane:
-        result.message = fmt::format("Stopped at {:.2f} s: slipped {:.4g} m, beyond contact.max_slip_m = {:g} m.",
-                                     result.end_time, result.slip, scene_.contact.max_slip);
+    case Status::diverged:
+        notes = {ending(result)};
         break;
-    case Status::diverged: {
-        const Energy& energy = result.history.energy.back();
-        const bool scheme = -energy.numerical > energy.contact_normal;
-        result.message = fmt::format("Stopped at {:.2f} s: {} has put {:.3g} J/m into the motion. Use a smaller "
-                                     "step, damping, or a more negative time.alpha.",
-                                     result.end_time, scheme ? "the time scheme" : "contact",
-                                     scheme ? -energy.numerical : energy.contact_normal);
+    default: // its statics, or what ran away, have said it
         break;
     }
-    default:
-        break;
-    }
+    if (result.status == Status::sliding_at_end && result.run_out.sliding_factor > 1.0)
+        notes.push_back({NoteKind::would_stand, {result.run_out.sliding_factor}});
     // Where contact gives way before it slips, what that stores comes back through friction.
     if (scene_.contact.enforcement == ContactEnforcement::exact && scene_.contact.normal == NormalContact::hard)
-        result.message += friction_gave_back(result.history);
-    if (result.events_left > 0 && stopped_between)
-        result.message += fmt::format(" {} of the sequence {} not run.",
-                                      result.events_left == 1 ? std::string("1 record")
-                                                              : fmt::format("{} records", result.events_left),
-                                      result.events_left == 1 ? "was" : "were");
-    else if (result.events_left > 0 && !result.events.empty())
-        result.message +=
-            fmt::format(" It had not come to rest after \"{}\": {} more of the sequence {} not run.",
-                        result.events.back().name, result.events_left, result.events_left == 1 ? "was" : "were");
-    if (result.status == Status::not_resolved && scene_.contact.rate.active()) result.message += longest_rated_step();
+        add(friction_gave_back(result.history));
+    const auto left = static_cast<std::int64_t>(result.events_left);
+    if (left > 0 && stopped_between)
+        notes.push_back({NoteKind::records_not_run, {left}});
+    else if (left > 0 && !result.events.empty())
+        notes.push_back({NoteKind::records_after_not_run, {result.events.back().name, left}});
+    if (result.status == Status::not_resolved && scene_.contact.rate.active()) add(longest_rated_step());
 }
 
 /// Steps for which friction over the rate has one answer in any case, of the dam as a rigid block.
-std::string EarthquakeRun::longest_rated_step() const
+std::vector<Note> EarthquakeRun::longest_rated_step() const
 {
     const RateFriction& rate = scene_.contact.rate;
     const BaseResultant base = base_resultant(*structure_, split(stages_.loads.size() - 1).dam);
     const double mass = structure_->dam_inertia_x().sum();
     const double fall = std::abs(1.0 - rate.kinetic_ratio) * FrictionOverSlip(scene_.contact).peak();
     if (!(fall > 0.0) || !(base.normal_force > 0.0)) return {};
-    return fmt::format(" Friction over the rate needs steps below about v_c M/(N' (mu - mu_k)) = {:.3g} s, or a longer "
-                       "relaxation: give a smaller time.dt_s.",
-                       *rate.characteristic_rate * mass / (base.normal_force * fall));
+    return {{NoteKind::rate_needs_steps, {*rate.characteristic_rate * mass / (base.normal_force * fall)}}};
 }
 
 /// Displacements at the end of the gravity stage where the scene counts from there; else empty.

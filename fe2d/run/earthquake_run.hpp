@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/note.hpp"
 #include "core/statistics.hpp"
 #include "core/status.hpp"
 #include "core/watch.hpp"
@@ -81,7 +82,7 @@ struct LiftResult {
 
 struct RunResult {
     Status status = Status::not_resolved; ///< not_resolved until the record has run
-    std::string message;                  ///< one sentence with the numbers
+    std::vector<Note> notes;              ///< how it ended, with the numbers; of a stage that fails, that stage's
     std::vector<StageResult> stages;      ///< before the earthquake
     std::vector<StageResult> between; ///< of a sequence, before its second, third, ... record (uplift.after = "full")
     StageResult after;                ///< after it, with residual strength and uplift_after
@@ -157,7 +158,7 @@ public:
     } ///< rows (x, y) by node; null: other rock, or none
     /// The same with rows as the base's plane has them, as the steps take it.
     const ReducedRock* radiating_on_base() const { return operators_ ? operators_->radiating() : nullptr; }
-    const std::string& why_not() const { return why_not_; } ///< no run has an answer: one sentence; empty: they may
+    const std::vector<Note>& why_not() const { return why_not_; } ///< no run has an answer; empty: they may
     double seconds() const { return seconds_; }             ///< that making it ready took
     /// Of the windows in which sliding after the record is looked at (slide_window) [s]; found by the first run that asks.
     double window() const;
@@ -190,13 +191,13 @@ public:
     std::vector<StageResult> statics(StaticContact& statics, Strength& strength, ContactMemory& memory) const;
 
 private:
-    struct Lane;
+    struct BatchedRun;
     /// Rest before the earthquake in the terms of what moves.
     struct Rest {
         SplitLoad load;
         StaticState start;
     };
-    Rest rest(const Lane& lane) const;
+    Rest rest(const BatchedRun& batched) const;
     Eigen::VectorXd displacement_of(const Eigen::VectorXd& moving, const Eigen::VectorXd& rock) const;
     Model tied_model() const;
     CoupledModes coupled_modes(int leading) const;
@@ -206,30 +207,31 @@ private:
     std::shared_ptr<const ExplicitOperators> explicit_operators() const;
     SplitLoad split(std::size_t stage) const;
     Relaxation relaxation() const;
-    SlideWatch slide_watch(const Lane& lane, double record_end) const;
+    SlideWatch slide_watch(const BatchedRun& batched, double record_end) const;
     Eigen::VectorXd zero_displacement(StaticContact& statics, const Strength& strength) const;
-    Lane lane_of(const Contact& contact) const;
-    SplitLoad load_of(const Lane& lane) const;
-    void stand(Lane& lane, const RunState* from) const;
-    void go_on(StaticContact& statics, Lane& lane, const RunState& from) const;
+    BatchedRun batched_run(const Contact& contact) const;
+    SplitLoad load_of(const BatchedRun& batched) const;
+    void stand(BatchedRun& batched, const RunState* from) const;
+    void go_on(StaticContact& statics, BatchedRun& batched, const RunState& from) const;
     bool rests_between(const GroundMotion& motion) const;
-    RunResult shake_with_rests(int halvings, Lane& lane) const;
-    PassSteps pass_steps(const Lane& lane, int parts) const;
-    bool adapts_steps(const Lane& lane) const;
-    std::unique_ptr<EarthquakePass> pass_of(const Lane& lane, int halvings, const PassSteps& steps) const;
+    RunResult shake_with_rests(int halvings, BatchedRun& batched) const;
+    PassSteps pass_steps(const BatchedRun& batched, int parts) const;
+    bool adapts_steps(const BatchedRun& batched) const;
+    std::unique_ptr<EarthquakePass> pass_of(const BatchedRun& batched, int halvings, const PassSteps& steps) const;
     double frame_interval(double record_end) const;
-    StepControl control_of(const Lane& lane, int level) const;
-    void refine(int halvings, std::span<Lane* const> lanes) const;
-    std::vector<RunResult> shake(int halvings, std::span<Lane* const> lanes) const;
-    std::vector<RunResult> shake_in_step(int halvings, std::span<Lane* const> lanes) const;
-    RunResult shake_explicitly(int halvings, const Lane& lane) const;
+    StepControl control_of(const BatchedRun& batched, int level) const;
+    void refine(int halvings, std::span<BatchedRun* const> batch) const;
+    std::vector<RunResult> shake(int halvings, std::span<BatchedRun* const> batch) const;
+    std::vector<RunResult> shake_in_step(int halvings, std::span<BatchedRun* const> batch) const;
+    RunResult shake_explicitly(int halvings, const BatchedRun& batched) const;
     const CrackedUplift& cracked_after(const JointWaterReport& water) const;
-    void end_lane(const ContactMotion& dynamics, const Strength& strength, const Lane& lane, RunResult& result) const;
-    RunProgress progress_of(const Lane& lane, int halvings, long record_steps, long step, double dt) const;
+    void end_run(const ContactMotion& dynamics, const Strength& strength, const BatchedRun& batched, RunResult& result) const;
+    RunProgress progress_of(const BatchedRun& batched, int halvings, long record_steps, long step, double dt) const;
     void judge(RunResult& result) const;
-    std::string longest_rated_step() const;
-    std::string runs_away(const RunResult& result) const;
-    std::string missed_tolerance(const RunResult& result) const;
+    std::vector<Note> longest_rated_step() const;
+    std::vector<Note> runs_away(const RunResult& result) const;
+    Note missed_tolerance(const RunResult& result) const;
+    Note ending(const RunResult& result) const;
 
     Scene scene_;
     RunOptions options_;
@@ -247,7 +249,7 @@ private:
     RunDamping damping_;
     std::optional<CrackLines> cracks_; ///< none where the structure is not usable
     bool usable_ = false;
-    std::string why_not_; ///< of what is not usable
+    std::vector<Note> why_not_; ///< of what is not usable
     double seconds_ = 0.0;
     std::optional<double> first_frequency_; ///< of dam and acoustic water, where the damping asked for it [rad/s]
     mutable std::once_flag window_found_;

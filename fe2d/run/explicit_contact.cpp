@@ -296,28 +296,28 @@ std::shared_ptr<const ExplicitOperators> EarthquakeRun::explicit_operators() con
     return operators;
 }
 
-RunResult EarthquakeRun::shake_explicitly(int halvings, const Lane& lane) const
+RunResult EarthquakeRun::shake_explicitly(int halvings, const BatchedRun& batched) const
 {
     const Stopwatch clock;
-    const GroundMotion& motion = *lane.motion;
+    const GroundMotion& motion = *batched.motion;
     const double row = motion.dt, duration = row * static_cast<double>(motion.accel_h.size() - 1);
-    const double step = lane.steps && lane.steps->step
-                            ? *lane.steps->step
+    const double step = batched.steps && batched.steps->step
+                            ? *batched.steps->step
                             : explicit_step(row, scene_.time.dt, limit_of(*explicit_)) / (1 << halvings);
     const long parts = std::lround(row / step);
     const GroundInput ground(motion, damping_.mass, damping_.constants.mass);
     const auto record_steps = std::lround(duration / row);
     const long all_steps = record_steps + static_cast<long>(std::ceil(scene_.sliding.run_out_max / row - 1e-9));
     const long rest_steps = static_cast<long>(std::ceil(rest_time() / row - 1e-9));
-    ExplicitContact dynamics(explicit_, split(stages_.loads.size() - 1), lane.start, lane.memory);
-    Strength strength = lane.strength;
-    RunResult result = lane.result;
+    ExplicitContact dynamics(explicit_, split(stages_.loads.size() - 1), batched.start, batched.memory);
+    Strength strength = batched.strength;
+    RunResult result = batched.result;
     result.dt = step;
     result.halvings = halvings;
     result.status = Status::sliding_at_end;
     HistoryRecorder recorder(dynamics, result.history, options_.pair_series, frame_interval(duration));
-    const SlideProbe probe(structure_->planes(), lane.result.stages.back(), dynamics.state().contact.slip);
-    SlideWatch watch = slide_watch(lane, duration);
+    const SlideProbe probe(structure_->planes(), batched.result.stages.back(), dynamics.state().contact.slip);
+    SlideWatch watch = slide_watch(batched, duration);
     result.cracks = cracks_->none_yet();
     CrackWatch cracks(*cracks_);
     const auto look = [&] {
@@ -343,7 +343,7 @@ RunResult EarthquakeRun::shake_explicitly(int halvings, const Lane& lane) const
         }
         add_row();
         if (options_.progress &&
-            options_.progress(progress_of(lane, halvings, record_steps, n + 1, row)) == RunAnswer::stop)
+            options_.progress(progress_of(batched, halvings, record_steps, n + 1, row)) == RunAnswer::stop)
             result.status = Status::interrupted;
         else if (options_.ends_when_lifts_wake && result.cracks.wakes())
             result.status = Status::interrupted;
@@ -356,7 +356,7 @@ RunResult EarthquakeRun::shake_explicitly(int halvings, const Lane& lane) const
     }
     recorder.finish();
     result.run_out = watch.figures();
-    end_lane(dynamics, strength, lane, result);
+    end_run(dynamics, strength, batched, result);
     result.seconds.dynamics += clock.seconds();
     return result;
 }

@@ -87,23 +87,23 @@ InterfaceFactor::InterfaceFactor(const SparseMatrix& of_nodes, int inner_nodes, 
     schur_.triangularView<Eigen::StrictlyUpper>() = schur_.transpose();
 }
 
-// Both unknowns of a node stand together, lane after lane. Each lane sees the same operations in the same order
-// whatever the number of lanes.
-template <int lanes>
-void InterfaceFactor::forward_lanes(double* const x) const
+// Both unknowns of a node stand together, column after column. Each column sees the same operations in the same order
+// whatever the number of columns.
+template <int columns>
+void InterfaceFactor::forward_columns(double* const x) const
 {
-    constexpr int width = 2 * lanes;
+    constexpr int width = 2 * columns;
     for (int j = 0; j < inner_; ++j) {
-        double x0[lanes], x1[lanes];
-        for (int lane = 0; lane < lanes; ++lane) {
-            x0[lane] = x[width * j + 2 * lane];
-            x1[lane] = x[width * j + 2 * lane + 1];
+        double x0[columns], x1[columns];
+        for (int column = 0; column < columns; ++column) {
+            x0[column] = x[width * j + 2 * column];
+            x1[column] = x[width * j + 2 * column + 1];
         }
         const auto take_off = [&](int row, const double* const l, const double* const m) {
             const Pair first = Values(l), second = Values(m);
             double* const y = x + width * row;
-            for (int lane = 0; lane < lanes; ++lane)
-                Eigen::Map<Pair>(y + 2 * lane) -= first * x0[lane] + second * x1[lane];
+            for (int column = 0; column < columns; ++column)
+                Eigen::Map<Pair>(y + 2 * column) -= first * x0[column] + second * x1[column];
         };
         int k = begin_[j];
         for (const int end = begin_[j + 1]; k + 1 < end; k += 2) {
@@ -114,35 +114,35 @@ void InterfaceFactor::forward_lanes(double* const x) const
     }
 }
 
-template <int lanes>
-void InterfaceFactor::backward_lanes(double* const x) const
+template <int columns>
+void InterfaceFactor::backward_columns(double* const x) const
 {
-    constexpr int width = 2 * lanes;
+    constexpr int width = 2 * columns;
     for (int j = inner_ - 1; j >= 0; --j) {
-        Pair first[lanes], second[lanes], first_odd[lanes], second_odd[lanes];
-        for (int lane = 0; lane < lanes; ++lane)
-            first[lane] = second[lane] = first_odd[lane] = second_odd[lane] = Pair::Zero();
+        Pair first[columns], second[columns], first_odd[columns], second_odd[columns];
+        for (int column = 0; column < columns; ++column)
+            first[column] = second[column] = first_odd[column] = second_odd[column] = Pair::Zero();
         int k = begin_[j];
         for (const int end = begin_[j + 1]; k + 1 < end; k += 2) { // two sums each: they do not wait for each other
             const double *const l = block_[k].v, *const m = block_[k + 1].v;
             const double *const y = x + width * row_[k], *const z = x + width * row_[k + 1];
-            for (int lane = 0; lane < lanes; ++lane) {
-                first[lane] += Values(l) * Values(y + 2 * lane);
-                second[lane] += Values(m) * Values(y + 2 * lane);
-                first_odd[lane] += Values(l + 2) * Values(z + 2 * lane);
-                second_odd[lane] += Values(m + 2) * Values(z + 2 * lane);
+            for (int column = 0; column < columns; ++column) {
+                first[column] += Values(l) * Values(y + 2 * column);
+                second[column] += Values(m) * Values(y + 2 * column);
+                first_odd[column] += Values(l + 2) * Values(z + 2 * column);
+                second_odd[column] += Values(m + 2) * Values(z + 2 * column);
             }
         }
         if (k < begin_[j + 1]) {
             const double *const l = block_[k].v, *const y = x + width * row_[k];
-            for (int lane = 0; lane < lanes; ++lane) {
-                first[lane] += Values(l) * Values(y + 2 * lane);
-                second[lane] += Values(l + 2) * Values(y + 2 * lane);
+            for (int column = 0; column < columns; ++column) {
+                first[column] += Values(l) * Values(y + 2 * column);
+                second[column] += Values(l + 2) * Values(y + 2 * column);
             }
         }
-        for (int lane = 0; lane < lanes; ++lane) {
-            const Pair a = first[lane] + first_odd[lane], b = second[lane] + second_odd[lane];
-            take_pivot(pivot_[j], a[0] + a[1], b[0] + b[1], x + width * j + 2 * lane);
+        for (int column = 0; column < columns; ++column) {
+            const Pair a = first[column] + first_odd[column], b = second[column] + second_odd[column];
+            take_pivot(pivot_[j], a[0] + a[1], b[0] + b[1], x + width * j + 2 * column);
         }
     }
 }
@@ -212,11 +212,11 @@ DAMSLIP_AVX2 void InterfaceFactor::backward_avx2(double* const x) const
     }
 }
 
-/// Two lanes side by side.
-template <int lanes>
-DAMSLIP_AVX2 void InterfaceFactor::forward_lanes_avx2(double* const x) const
+/// Two columns side by side.
+template <int columns>
+DAMSLIP_AVX2 void InterfaceFactor::forward_columns_avx2(double* const x) const
 {
-    constexpr int width = 2 * lanes, halves = lanes / 2;
+    constexpr int width = 2 * columns, halves = columns / 2;
     for (int j = 0; j < inner_; ++j) {
         __m256d x0[halves], x1[halves];
         for (int h = 0; h < halves; ++h) {
@@ -242,10 +242,10 @@ DAMSLIP_AVX2 void InterfaceFactor::forward_lanes_avx2(double* const x) const
     }
 }
 
-template <int lanes>
-DAMSLIP_AVX2 void InterfaceFactor::backward_lanes_avx2(double* const x) const
+template <int columns>
+DAMSLIP_AVX2 void InterfaceFactor::backward_columns_avx2(double* const x) const
 {
-    constexpr int width = 2 * lanes, halves = lanes / 2;
+    constexpr int width = 2 * columns, halves = columns / 2;
     for (int j = inner_ - 1; j >= 0; --j) {
         __m256d first[2][halves], second[2][halves]; // of even and of odd blocks
         for (int parity = 0; parity < 2; ++parity)
@@ -277,22 +277,22 @@ DAMSLIP_AVX2 void InterfaceFactor::backward_lanes_avx2(double* const x) const
 
 #endif
 
-template <int lanes>
+template <int columns>
 void InterfaceFactor::forward_together(double* const x) const
 {
 #if DAMSLIP_HAS_AVX2
-    if (vector_level() == VectorLevel::avx2) return forward_lanes_avx2<lanes>(x);
+    if (vector_level() == VectorLevel::avx2) return forward_columns_avx2<columns>(x);
 #endif
-    forward_lanes<lanes>(x);
+    forward_columns<columns>(x);
 }
 
-template <int lanes>
+template <int columns>
 void InterfaceFactor::backward_together(double* const x) const
 {
 #if DAMSLIP_HAS_AVX2
-    if (vector_level() == VectorLevel::avx2) return backward_lanes_avx2<lanes>(x);
+    if (vector_level() == VectorLevel::avx2) return backward_columns_avx2<columns>(x);
 #endif
-    backward_lanes<lanes>(x);
+    backward_columns<columns>(x);
 }
 
 void InterfaceFactor::forward_one(double* const x, [[maybe_unused]] VectorLevel level) const
@@ -300,7 +300,7 @@ void InterfaceFactor::forward_one(double* const x, [[maybe_unused]] VectorLevel 
 #if DAMSLIP_HAS_AVX2
     if (level == VectorLevel::avx2) return forward_avx2(x);
 #endif
-    forward_lanes<1>(x);
+    forward_columns<1>(x);
 }
 
 void InterfaceFactor::backward_one(double* const x, [[maybe_unused]] VectorLevel level) const
@@ -308,7 +308,7 @@ void InterfaceFactor::backward_one(double* const x, [[maybe_unused]] VectorLevel
 #if DAMSLIP_HAS_AVX2
     if (level == VectorLevel::avx2) return backward_avx2(x);
 #endif
-    backward_lanes<1>(x);
+    backward_columns<1>(x);
 }
 
 /// Tᵀ b
@@ -337,24 +337,24 @@ void InterfaceFactor::backward(Eigen::VectorXd& b, VectorLevel level) const
 
 namespace {
 
-/// Lanes side by side, node by node, and back.
+/// Columns side by side, node by node, and back.
 void gather(std::span<Eigen::VectorXd* const> vectors, std::vector<double>& together)
 {
-    const std::size_t lanes = vectors.size(), nodes = static_cast<std::size_t>(vectors[0]->size()) / 2;
-    together.resize(2 * lanes * nodes);
-    for (std::size_t lane = 0; lane < lanes; ++lane)
+    const std::size_t columns = vectors.size(), nodes = static_cast<std::size_t>(vectors[0]->size()) / 2;
+    together.resize(2 * columns * nodes);
+    for (std::size_t column = 0; column < columns; ++column)
         for (std::size_t node = 0; node < nodes; ++node)
             for (const std::size_t c : {0, 1})
-                together[2 * (lanes * node + lane) + c] = vectors[lane]->data()[2 * node + c];
+                together[2 * (columns * node + column) + c] = vectors[column]->data()[2 * node + c];
 }
 
 void scatter(const std::vector<double>& together, std::span<Eigen::VectorXd* const> vectors)
 {
-    const std::size_t lanes = vectors.size(), nodes = static_cast<std::size_t>(vectors[0]->size()) / 2;
-    for (std::size_t lane = 0; lane < lanes; ++lane)
+    const std::size_t columns = vectors.size(), nodes = static_cast<std::size_t>(vectors[0]->size()) / 2;
+    for (std::size_t column = 0; column < columns; ++column)
         for (std::size_t node = 0; node < nodes; ++node)
             for (const std::size_t c : {0, 1})
-                vectors[lane]->data()[2 * node + c] = together[2 * (lanes * node + lane) + c];
+                vectors[column]->data()[2 * node + c] = together[2 * (columns * node + column) + c];
 }
 
 /// In groups of four, then two, then one.
@@ -362,16 +362,16 @@ template <class One, class Two, class Four>
 void in_groups(std::span<Eigen::VectorXd* const> vectors, std::vector<double>& together, One one, Two two, Four four)
 {
     while (!vectors.empty()) {
-        const std::size_t lanes = vectors.size() >= 4 ? 4 : vectors.size() >= 2 ? 2 : 1;
-        const auto group = vectors.first(lanes);
-        if (lanes == 1) {
+        const std::size_t columns = vectors.size() >= 4 ? 4 : vectors.size() >= 2 ? 2 : 1;
+        const auto group = vectors.first(columns);
+        if (columns == 1) {
             one(group[0]->data());
         } else {
             gather(group, together);
-            lanes == 4 ? four(together.data()) : two(together.data());
+            columns == 4 ? four(together.data()) : two(together.data());
             scatter(together, group);
         }
-        vectors = vectors.subspan(lanes);
+        vectors = vectors.subspan(columns);
     }
 }
 

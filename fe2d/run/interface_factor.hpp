@@ -57,23 +57,23 @@ public:
     };
 
 private:
-    template <int lanes>
-    void forward_lanes(double* x) const;
-    template <int lanes>
-    void backward_lanes(double* x) const;
-    template <int lanes>
+    template <int columns>
+    void forward_columns(double* x) const;
+    template <int columns>
+    void backward_columns(double* x) const;
+    template <int columns>
     void forward_together(double* x) const;
-    template <int lanes>
+    template <int columns>
     void backward_together(double* x) const;
     void forward_one(double* x, VectorLevel level) const;
     void backward_one(double* x, VectorLevel level) const;
 #if DAMSLIP_HAS_AVX2
     void forward_avx2(double* x) const;
     void backward_avx2(double* x) const;
-    template <int lanes>
-    void forward_lanes_avx2(double* x) const;
-    template <int lanes>
-    void backward_lanes_avx2(double* x) const;
+    template <int columns>
+    void forward_columns_avx2(double* x) const;
+    template <int columns>
+    void backward_columns_avx2(double* x) const;
 #endif
 
     void to_ties(Eigen::VectorXd& b) const;

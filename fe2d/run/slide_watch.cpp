@@ -133,50 +133,37 @@ RunOutFigures SlideWatch::figures() const
     return figures;
 }
 
-namespace {
-
-/// Sentences with the change of the scene that lets waves leave.
-std::string remedy(const Scene& scene)
+std::vector<Note> lift_off_notes(const RunOutFigures& figures)
 {
-    const std::string then = fmt::format(", then  damslip fe {}  with the options of this run", scene.file.string());
-    if (!scene.foundation) return "give [foundation] so that the rock radiates" + then;
-    if (!rock_has_mass(scene))
-        return fmt::format("let the rock radiate: delete  mass = \"massless\"  in [foundation], or run  damslip fe {} "
-                           "--rock radiating  with the options of this run",
-                           scene.file.string());
-    if (scene.foundation->boundary == RockBoundary::fixed)
-        return "let waves leave the rock: delete  boundary = \"fixed\"  in [foundation]" + then;
-    return "the rock radiates already: see whether smaller elements and steps still give it (docs/fe-contact.md, A dam "
-           "that goes on sliding)";
+    if (figures.lift_offs == 0) return {};
+    return {{NoteKind::lift_offs, {std::int64_t{figures.lift_offs}, figures.lift_off_frequency}}};
 }
 
-std::string lift_off_words(const RunOutFigures& figures)
+namespace {
+
+/// The change of the scene that lets waves leave.
+Note remedy(const Scene& scene)
 {
-    if (figures.lift_offs == 0) return "";
-    const std::string often = figures.lift_offs > 1 ? fmt::format(", {:.3g} a second", figures.lift_off_frequency) : "";
-    return fmt::format(", {} {} with the whole base open{}", figures.lift_offs, figures.lift_offs == 1 ? "lift-off" : "lift-offs",
-                       often);
+    const std::string file = scene.file.string();
+    if (!scene.foundation) return {NoteKind::no_slip_give_rock, {file}};
+    if (!rock_has_mass(scene)) return {NoteKind::no_slip_let_radiate, {file}};
+    if (scene.foundation->boundary == RockBoundary::fixed) return {NoteKind::no_slip_free_edge, {file}};
+    return {NoteKind::no_slip_radiates};
 }
 
 } // namespace
 
-std::string self_excited_sentence(const Scene& scene, double slip, const RunOutFigures& f)
+std::vector<Note> self_excited_notes(const Scene& scene, double slip, const RunOutFigures& f)
 {
-    const std::string more = std::isfinite(f.thrust_over_friction)
-                                 ? fmt::format("does {:.3g} times the work that friction takes", f.thrust_over_friction)
-                                 : "meets no friction";
-    return fmt::format(
-        "Self-excited, slid at least {:.4g} mm: with the ground at rest it goes on at {:.3g} mm/s although it "
-        "would stand, FS {:.3g}; it slips while little presses on the base, so the static thrust {} and pays "
-        "for the vibration{}. No slip can be given: {}.",
-        1e3 * std::abs(slip), 1e3 * std::abs(f.rate), f.sliding_factor, more, lift_off_words(f), remedy(scene));
-}
-
-std::string walked_sentence(double slip, const RunOutFigures& f)
-{
-    return fmt::format("{:.3g} mm of the slip of {:.4g} mm came after the record, with the ground at rest{}: it may be "
-                       "the model that goes on sliding (docs/fe-contact.md, A dam that goes on sliding).",
-                       1e3 * std::abs(f.slip_at_rest), 1e3 * std::abs(slip), lift_off_words(f));
+    Note all{NoteKind::self_excited_no_friction, {1e3 * std::abs(slip), 1e3 * std::abs(f.rate), f.sliding_factor}};
+    if (std::isfinite(f.thrust_over_friction)) {
+        all.kind = NoteKind::self_excited;
+        all.values.push_back(f.thrust_over_friction);
+    }
+    std::vector<Note> notes{std::move(all)};
+    for (Note& note : lift_off_notes(f)) notes.push_back(std::move(note));
+    notes.push_back(remedy(scene));
+    return notes;
 }
 
 } // namespace damslip::fe2d

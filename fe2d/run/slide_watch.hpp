@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/note.hpp"
 #include "scene/scene.hpp"
 
 #include <functional>
@@ -113,11 +114,11 @@ private:
     bool self_excited_ = false;
 };
 
-/// The sentence for a run with self-excited sliding: how far the dam slid, why, and the command that runs the scene on rock that
-/// radiates. @param slip  so far [m]
-std::string self_excited_sentence(const Scene& scene, double slip, const RunOutFigures& figures);
+/// What there is to say of a run with self-excited sliding: how far the dam slid, why, and what in the scene lets waves leave.
+/// @param slip  [m]
+std::vector<Note> self_excited_notes(const Scene& scene, double slip, const RunOutFigures& figures);
 
-/// The warning for a run in which the dam ratchets (RunOutFigures::ratchets()). @param slip  at the end [m]
-std::string walked_sentence(double slip, const RunOutFigures& figures);
+/// With the whole base open, of a run that goes on after its record; none: empty.
+std::vector<Note> lift_off_notes(const RunOutFigures& figures);
 
 } // namespace damslip::fe2d

@@ -375,7 +375,7 @@ StageResult stage_after(StaticContact& statics, const ContactStructure& structur
         StageResult result = solve_stage(statics, structure, "after the earthquake", load(profile), left, at_rest,
                                          before, relax);
         if (profile.points != uplift_of({}).points)
-            result.water = fmt::format("full head on {:.4g} m of the base", crack.upstream + crack.downstream);
+            result.flooded = crack.upstream + crack.downstream;
         const CrackLengths &was = strength.opened(), &now = left.opened();
         if (now.upstream > was.upstream) crack.upstream = std::max(crack.upstream, now.upstream);
         if (now.downstream > was.downstream) crack.downstream = std::max(crack.downstream, now.downstream);
@@ -404,50 +404,46 @@ Status status_of(StageStatus stage)
     return Status::not_resolved;
 }
 
-std::string StageResult::text() const
+std::vector<Note> StageResult::notes() const
 {
     const PlaneBalance* weakest = this; // the base where it fails, else the first joint that does
     for (const PlaneBalance& lift : lifts)
         if (!base_fails && weakest == this && lift.status != StageStatus::ok) weakest = &lift;
     const bool is_base = weakest == this;
     const BaseResultant& r = weakest->resultant;
-    const std::string forces =
-        fmt::format("N' = {:.5g} MN/m, T = {:.5g} MN/m", 1e-6 * r.normal_force, 1e-6 * r.shear_force);
+    const double normal = 1e-6 * r.normal_force, shear = 1e-6 * r.shear_force;
     const std::string body = is_base ? "the dam" : "what is above the " + weakest->plane;
-    const std::string stage = water.empty() ? name : name + ", " + water;
+    const std::string stage =
+        flooded > 0.0 ? fmt::format("{}, full head on {:.4g} m of the base", name, flooded) : name;
     switch (status) {
-    case StageStatus::ok:
-        return fmt::format("{}: in equilibrium, {}, mean slip {:.3g} mm, open length {:.3g} m, mu needed {:.5f}.{}",
-                           stage, forces, 1e3 * slip, open_length, critical_friction,
-                           bond && bond->jumps > 0
-                               ? fmt::format(" It jumped there {} {}: part of the bond broke at once, {:.3g} J/m lost.",
-                                             bond->jumps, bond->jumps == 1 ? "time" : "times", bond->lost)
-                               : "");
-    case StageStatus::slides:
-        return fmt::format("{}: {} slides without any earthquake, {}: it holds with mu >= {:.5f}.", stage, body, forces,
-                           weakest->critical_friction);
-    case StageStatus::floats:
-        return fmt::format("{}: {} floats, {}: {}.", stage, body, forces,
-                           water.empty() ? "uplift exceeds all weight" : "the water in the crack carries all weight");
-    case StageStatus::overturns:
-        return fmt::format("{}: {} overturns, {}: the resultant acts {:.5g} m from the {}, outside the {}.", stage,
-                           body, forces, r.position, is_base ? "heel" : "upstream face", is_base ? "base" : "joint");
-    case StageStatus::progressive:
-        return fmt::format(
-            "{}: the bond breaks progressively and does not carry the load, {}: no state was found "
-            "in equilibrium under more than {:.4g} of the stage's load, {:.3g} with all strength at once, and released {}the dam does not "
-            "come to rest; give more strength or fracture energy.",
-            stage, forces, bond ? bond->largest : 0.0, bond ? bond->limit : 0.0,
-            bond && bond->jumps > 0 ? fmt::format("at {:.4g}, after {} {}, ", bond->carried, bond->jumps,
-                                                  bond->jumps == 1 ? "jump" : "jumps")
-                                    : "");
-    case StageStatus::not_resolved:
-        return fmt::format(
-            "{}: not resolved: the solver found no contact state in {} iterations, which says nothing of the dam; "
-            "{}, mu needed by these resultants {:.5f}.",
-            stage, contact.iterations, forces, critical_friction);
+    case StageStatus::ok: {
+        std::vector<Note> all{
+            {NoteKind::stage_holds, {stage, normal, shear, 1e3 * slip, open_length, critical_friction}}};
+        if (bond && bond->jumps > 0)
+            all.push_back({NoteKind::stage_jumped, {std::int64_t{bond->jumps}, bond->lost}});
+        return all;
     }
-    return {};
+    case StageStatus::slides:
+        return {{NoteKind::stage_slides, {stage, body, normal, shear, weakest->critical_friction}}};
+    case StageStatus::floats:
+        return {{flooded > 0.0 ? NoteKind::stage_crack_floats : NoteKind::stage_floats, {stage, body, normal, shear}}};
+    case StageStatus::overturns:
+        return {{NoteKind::stage_overturns,
+                 {stage, body, normal, shear, r.position, is_base ? "heel" : "upstream face",
+                  is_base ? "base" : "joint"}}};
+    case StageStatus::progressive: {
+        const BondLoad carried = bond.value_or(BondLoad{.largest = 0.0});
+        if (carried.jumps > 0)
+            return {{NoteKind::stage_progressive_jumped,
+                     {stage, normal, shear, carried.largest, carried.limit, carried.carried,
+                      std::int64_t{carried.jumps}}}};
+        return {{NoteKind::stage_progressive, {stage, normal, shear, carried.largest, carried.limit}}};
+    }
+    case StageStatus::not_resolved:
+        break;
+    }
+    return {{NoteKind::stage_not_resolved,
+             {stage, std::int64_t{contact.iterations}, normal, shear, critical_friction}}};
 }
 
 } // namespace damslip::fe2d

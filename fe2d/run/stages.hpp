@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/note.hpp"
 #include "core/status.hpp"
 #include "fe2d/model/static_solution.hpp"
 #include "fe2d/run/static_contact.hpp"
@@ -59,13 +60,13 @@ struct BondLoad {
 struct StageResult : PlaneBalance { // `status` is that of the whole stage
     std::string name;               ///< "gravity", "prestress", "water", "uplift", "after the earthquake"
     std::string where;              ///< the lift joint that fails; empty: the base
-    std::string water;              ///< "full head on 12 m of the base": in what an earthquake has cracked; empty: none
+    double flooded = 0.0;           ///< of the base, that an earthquake has cracked: full head stands in it [m]
     bool base_fails = false;        ///< by its resultants
     std::vector<PlaneBalance> lifts; ///< from bottom to top
     std::optional<BondLoad> bond;    ///< of a bond that breaks by energy; none: none, or not asked for
     ContactReport contact;
 
-    std::string text() const; ///< one sentence with the numbers
+    std::vector<Note> notes() const; ///< how it ended, with the numbers
 };
 
 /// Static loads of a scene, one after the other; each holds all before it.

@@ -71,9 +71,7 @@ void fill_profile(SeepageResult& result)
     result.uplift = resultant(result.profile).force;
     const double scale = result.unit_weight * result.profile.points.back().distance;
     if (result.lowest_pressure < -1e-9 * scale)
-        result.notes.push_back(
-            fmt::format("seepage: suction down to {:.3g} kPa under the base is taken as zero pressure",
-                        1e-3 * result.lowest_pressure));
+        result.notes.push_back({NoteKind::suction, {1e-3 * result.lowest_pressure}});
 }
 
 double pressure_near(const SeepageResult& result, double distance)
@@ -133,10 +131,7 @@ SeepageResult solve_seepage(const Scene& scene, const UpliftState& state, const 
     SeepageResult result = solve_seepage_on(seepage_mesh(scene, drain_line(scene, state), options), scene, state);
     if (!scene.foundation) {
         const SeepageBox box = seepage_box(scene);
-        result.notes.push_back(
-            fmt::format("seepage: no [foundation]; a box of {:.4g} m x {:.4g} m (300/45 x 100/45 base "
-                        "lengths) with permeability {:g} m/s is used",
-                        box.width, box.depth, permeability_of(scene, state).rock));
+        result.notes.push_back({NoteKind::seepage_box, {box.width, box.depth, permeability_of(scene, state).rock}});
     }
     return result;
 }
@@ -151,7 +146,7 @@ SeepageResult solve_seepage_on(Mesh mesh, const Scene& scene, const UpliftState&
     result.unit_weight = water_unit_weight(scene);
     result.field = solve_darcy(result.mesh, permeability, boundary_heads(result.mesh, state, drains));
     if (!result.field.solver.ok()) {
-        result.notes.push_back("seepage: " + result.field.solver.text());
+        result.notes.push_back({NoteKind::seepage_failed, {text_of(result.field.solver.note())}});
         return result;
     }
     fill_profile(result);
@@ -159,9 +154,7 @@ SeepageResult solve_seepage_on(Mesh mesh, const Scene& scene, const UpliftState&
     result.outflow = -total(result.field.inflow, with_mid_nodes(result.mesh, result.mesh.ground));
     if (drains) {
         result.drain_flow = -total(result.field.inflow, nodes_below(result.mesh, drains->distance, drains->depth));
-        result.notes.push_back(
-            fmt::format("seepage: drains at {:.3g} m are a line {:.3g} m deep held at a head of {:.4g} m",
-                        drains->distance, drains->depth, drains->head));
+        result.notes.push_back({NoteKind::drain_line, {drains->distance, drains->depth, drains->head}});
     }
     if (curtain_changes_flow(scene)) fill_curtain(result, *scene.curtain, permeability);
     return result;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/note.hpp"
 #include "fe2d/element/elastic.hpp"
 #include "fe2d/mesh/mesh.hpp"
 #include "fe2d/seepage/seepage_mesh.hpp"
@@ -66,7 +67,7 @@ struct SeepageResult {
     double unit_weight = 0.0;                      ///< of water, γ_w [N/m^3]
     Mesh mesh;                                     ///< of the rock
     DarcySolution field;                           ///< heads on it; field.solver says whether all this is valid
-    std::vector<std::string> notes;                ///< what was assumed and what the user should know
+    std::vector<Note> notes;                       ///< what was assumed and what the user should know
 };
 
 /// Steady seepage below the dam: head of the reservoir on its floor, of the tailwater on the ground downstream, no flow

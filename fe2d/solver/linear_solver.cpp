@@ -165,27 +165,23 @@ std::int64_t factor_bytes(const cholmod_factor& factor)
 
 } // namespace
 
-std::string SolverReport::text() const
+Note SolverReport::note() const
 {
-    const std::string size = fmt::format("{} unknowns, {} non-zeros in the factor", unknowns, nonzeros_factor);
     switch (status) {
     case SolverStatus::ok:
-        return fmt::format("Factorised: {}, residual {:.1e}.", size, residual);
+        return {NoteKind::factorised, {unknowns, nonzeros_factor, residual}};
     case SolverStatus::not_factorised:
-        return "Nothing has been factorised yet.";
+        break;
     case SolverStatus::not_positive_definite:
-        return fmt::format("The matrix ({} unknowns) is not positive definite: the structure is a mechanism.",
-                           unknowns);
+        return {NoteKind::not_positive_definite, {unknowns}};
     case SolverStatus::singular:
-        return fmt::format("The matrix ({}) is singular: smallest pivot {:.1e} of a unit diagonal.", size,
-                           smallest_pivot);
+        return {NoteKind::singular, {unknowns, nonzeros_factor, smallest_pivot}};
     case SolverStatus::inaccurate:
-        return fmt::format("The factorisation ({}) is inaccurate: residual {:.1e}, error {:.1e}.", size, residual,
-                           forward_error);
+        return {NoteKind::inaccurate, {unknowns, nonzeros_factor, residual, forward_error}};
     case SolverStatus::out_of_memory:
-        return fmt::format("Out of memory while factorising {} unknowns.", unknowns);
+        return {NoteKind::out_of_memory, {unknowns}};
     }
-    return {};
+    return {NoteKind::not_factorised};
 }
 
 struct LinearSolver::Implementation {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/note.hpp"
+
 #include <Eigen/SparseCore>
 #include <cstdint>
 #include <memory>
@@ -53,7 +55,7 @@ struct SolverReport {
     int factorisations = 0;           ///< so far
 
     bool ok() const { return status == SolverStatus::ok; }
-    std::string text() const; ///< one sentence with the numbers
+    Note note() const; ///< the status with its numbers
 };
 
 /// Sparse direct solver for symmetric systems (CHOLMOD). The matrix is scaled to D A D with D = a_ii^-1/2 rounded to

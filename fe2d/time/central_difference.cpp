@@ -242,7 +242,7 @@ void ExplicitRun::shake(CentralDifference& scheme, HistoryWriter& writer, std::i
         ledger.add_step(before, after, constants);
         if (!std::isfinite(ledger.imbalance())) {
             history_.status = TiedRunStatus::diverged;
-            history_.status_text = fmt::format("not finite after step {} at {:.4g} s", n, time);
+            history_.ending = {NoteKind::not_finite, {n, time}};
             break;
         }
         std::swap(before, after);
@@ -259,7 +259,7 @@ History ExplicitRun::go()
     check(problem_);
     if (!problem_.prepare()) {
         history_.status = TiedRunStatus::solver_failed;
-        history_.status_text = problem_.structure.solver.text();
+        history_.ending = problem_.structure.solver.note();
         return std::move(history_);
     }
     ExplicitSystem parts = system();
@@ -271,8 +271,8 @@ History ExplicitRun::go()
     HistoryWriter writer(history_, options_, dt, steps, keep);
     history_.unknowns = parts.stiffness.rows();
     history_.step_limit = limit.dt;
-    history_.notes.push_back(limit.text() +
-                             fmt::format("; steps of {:.4g} s, rows of the history every {:g} s", dt, keep * dt));
+    history_.notes.push_back(limit.note());
+    history_.notes.push_back({NoteKind::explicit_steps, {dt, keep * dt}});
     CentralDifference scheme(std::move(parts), dt);
     shake(scheme, writer, steps);
     return std::move(history_);
@@ -280,13 +280,11 @@ History ExplicitRun::go()
 
 } // namespace
 
-std::string ExplicitLimit::text() const
+Note ExplicitLimit::note() const
 {
-    std::string damped;
-    if (dt < dt_undamped)
-        damped = fmt::format(" ({:.4g} s without stiffness damping, which acts half a step late)", dt_undamped);
-    return fmt::format("central difference, lumped mass: stable up to {:.5g} s{}, highest frequency {:.5g} Hz", dt,
-                       damped, highest_frequency / (2.0 * std::numbers::pi));
+    const double highest = highest_frequency / (2.0 * std::numbers::pi);
+    if (dt < dt_undamped) return {NoteKind::explicit_limit_damped, {dt, highest, dt_undamped}};
+    return {NoteKind::explicit_limit, {dt, highest}};
 }
 
 ExplicitLimit explicit_limit(const SparseMatrix& lumped, const SparseMatrix& stiffness, double stiffness_damping)
@@ -309,7 +307,7 @@ double explicit_step(double motion_dt, std::optional<double> asked, const Explic
     if (*asked > limit.dt)
         refuse_explicit(
             fmt::format("time.dt_s = {:g} is above the limit of the central difference, {:.6g} s.", *asked, limit.dt),
-            fmt::format("at most {:.6g} s: {}", limit.dt, limit.text()),
+            fmt::format("at most {:.6g} s: {}", limit.dt, text_of(limit.note())),
             fmt::format("leave dt_s out for {:g} s / {:.0f}, or use  scheme = \"hht\"  in [time], stable at "
                         "any step",
                         motion_dt, parts_below));

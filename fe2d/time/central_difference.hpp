@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/note.hpp"
 #include "fe2d/assembly/assemble.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "fe2d/time/linear_integrator.hpp"
@@ -67,7 +68,7 @@ struct ExplicitLimit {
     double highest_frequency = 0.0; ///< ω of M⁻¹K, M lumped, by 80 steps of Lanczos' method [rad/s]
     double dt = 0.0;                ///< central_difference_limit() [s]
     double dt_undamped = 0.0;       ///< the same with b_K = 0 [s]
-    std::string text() const;       ///< one sentence with the numbers
+    Note note() const;
 };
 ExplicitLimit explicit_limit(const SparseMatrix& lumped, const SparseMatrix& stiffness, double stiffness_damping);
 

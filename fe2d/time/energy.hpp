@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/csv.hpp"
+#include "core/note.hpp"
 #include "fe2d/time/linear_integrator.hpp"
 #include "records/record.hpp"
 
@@ -179,7 +179,7 @@ struct ModalTruncation {
 /// What a run gives, and how it ended.
 struct History {
     TiedRunStatus status = TiedRunStatus::complete;
-    std::string status_text;      ///< one sentence with the numbers
+    Note ending{NoteKind::steps_done}; ///< how it ended, with the numbers
     std::vector<HistoryRow> rows; ///< the start and every step; thinned where asked for
     Eigen::VectorXd displacement; ///< of all model unknowns at the end [m]
     double time_step = 0.0;       ///< [s]
@@ -195,11 +195,8 @@ struct History {
     double peak_crest_accel_x = 0.0; ///< largest |absolute crest acceleration| in x [m/s^2]
     double peak_base_shear = 0.0;    ///< largest, downstream [N/m]
     double peak_water_force = 0.0;   ///< largest |water_force_x| [N/m]
-    std::vector<std::string> notes;
+    std::vector<Note> notes;
 };
-
-/// The rows as a table, for CSV and charts. Energies in J/m, forces in N/m.
-Table tabulate(const History& history);
 
 /// Where a run stands, for a progress line.
 struct RunProgress {

@@ -208,7 +208,7 @@ History Run::go()
 {
     if (!prepare()) {
         history_.status = TiedRunStatus::solver_failed;
-        history_.status_text = problem_.structure.solver.text();
+        history_.ending = problem_.structure.solver.note();
         return std::move(history_);
     }
     // The first state sees the ground acceleration of the first sample: a₀ in equilibrium with it.
@@ -228,7 +228,7 @@ History Run::go()
         enter(before, after, step.constants(), ledger);
         if (!std::isfinite(ledger.imbalance())) {
             history_.status = TiedRunStatus::diverged;
-            history_.status_text = fmt::format("not finite after step {} at {:.4g} s", n, time);
+            history_.ending = {NoteKind::not_finite, {n, time}};
             break;
         }
         std::swap(before, after);
@@ -418,8 +418,7 @@ bool HistoryWriter::stopped(std::int64_t step, double time)
         options_.progress({time, dt_ * static_cast<double>(steps_), step, steps_}) == RunAnswer::go_on)
         return false;
     history_.status = TiedRunStatus::cancelled;
-    history_.status_text = fmt::format("stopped by the user at {:.4g} s of {:.4g} s; results up to there are kept",
-                                       time, dt_ * static_cast<double>(steps_));
+    history_.ending = {NoteKind::stopped_by_user, {time, dt_ * static_cast<double>(steps_)}};
     return true;
 }
 
@@ -428,7 +427,7 @@ void HistoryWriter::finish(double energy_scale)
     history_.energy_scale = energy_scale;
     if (energy_scale > 0.0) history_.largest_imbalance /= energy_scale;
     if (history_.status == TiedRunStatus::complete)
-        history_.status_text = fmt::format("{} steps of {:g} s, {} unknowns", history_.steps, dt_, history_.unknowns);
+        history_.ending = {NoteKind::steps_done, {history_.steps, dt_, history_.unknowns}};
 }
 
 } // namespace damslip::fe2d

@@ -226,7 +226,7 @@ History ModalRun::go()
         highest.step(a0, a1);
         if (!std::isfinite(ledger.imbalance())) {
             history.status = TiedRunStatus::diverged;
-            history.status_text = fmt::format("not finite after step {} at {:.4g} s", n, time);
+            history.ending = {NoteKind::not_finite, {n, time}};
             break;
         }
         std::swap(before, after);
@@ -268,19 +268,16 @@ double percent(double part, double whole)
 void note(History& history)
 {
     const ModalTruncation& t = history.modal;
-    history.notes.push_back(fmt::format(
-        "superposition of {} modes up to {:.4g} Hz with {:.4g} % (x) and {:.4g} % (y) of the mass, exact in time{}",
-        t.modes, t.highest_frequency, 100.0 * t.mass_share.x(), 100.0 * t.mass_share.y(),
+    const std::int64_t modes = t.modes;
+    const double x = 100.0 * t.mass_share.x(), y = 100.0 * t.mass_share.y();
+    history.notes.push_back(
         t.damping_coupling > 0.0
-            ? fmt::format("; the undamped added mass couples them (largest {:.2g}), solved together",
-                          t.damping_coupling)
-            : ""));
-    history.notes.push_back(fmt::format("modes left out follow the ground statically; their motion is estimated at "
-                                        "{:.2g} % of the peak crest x, {:.2g} % of "
-                                        "its acceleration, {:.2g} % of the base shear",
-                                        percent(t.crest_x_error, history.peak_crest_x),
-                                        percent(t.crest_accel_x_error, history.peak_crest_accel_x),
-                                        percent(t.base_shear_error, std::abs(history.peak_base_shear))));
+            ? Note{NoteKind::modes_coupled, {modes, t.highest_frequency, x, y, t.damping_coupling}}
+            : Note{NoteKind::modes_exact, {modes, t.highest_frequency, x, y}});
+    history.notes.push_back({NoteKind::modes_left_out,
+                             {percent(t.crest_x_error, history.peak_crest_x),
+                              percent(t.crest_accel_x_error, history.peak_crest_accel_x),
+                              percent(t.base_shear_error, std::abs(history.peak_base_shear))}});
 }
 
 } // namespace
@@ -308,21 +305,21 @@ History integrate_modal(const Model& model, const GroundMotion& motion, const Ti
         refuse_modal(
             "damping that is neither mass- nor stiffness-proportional: real modes do not separate the equations");
     History history;
-    const auto failed = [&history](std::string text) {
+    const auto failed = [&history](Note note) {
         history.status = TiedRunStatus::solver_failed;
-        history.status_text = std::move(text);
+        history.ending = std::move(note);
         return std::move(history);
     };
-    if (!problem.prepare()) return failed(problem.structure.solver.text());
+    if (!problem.prepare()) return failed(problem.structure.solver.note());
     MatrixXd loads = MatrixXd::Zero(problem.load.mass_x.size(), 4);
     loads.leftCols(2) << problem.load.mass_x, problem.load.mass_y;
     loads(problem.crest_x, 2) = loads(problem.crest_y, 3) = 1.0;
     const MatrixXd responses = problem.static_response(loads);
     const Flexibility flexible{responses.leftCols(2), responses.rightCols(2)};
-    if (!problem.structure.solver.ok()) return failed(problem.structure.solver.text());
+    if (!problem.structure.solver.ok()) return failed(problem.structure.solver.note());
     for (int count = modal.modes.value_or(modal.first);; count = std::min(2 * count, modal.most)) {
         const NaturalModes modes = natural_modes(model, count, options.solver);
-        if (modes.frequency.size() == 0) return failed("no natural mode was found; " + modes.solver.text());
+        if (modes.frequency.size() == 0) return failed({NoteKind::no_mode_found, {text_of(modes.solver.note())}});
         const ModalBasis basis = basis_of(problem, modes, flexible);
         history = ModalRun(problem, basis, dt, options.keep_every * parts).go();
         const bool all = modes.frequency.size() < count;

@@ -153,7 +153,7 @@ DampingChoice damping_of(const Scene& scene, const Model& model, const GroundMot
     if (modes.frequency.size() == 0) {
         DampingChoice none;
         none.mass = scene.damping.mass;
-        none.notes.push_back("damping: no natural mode was found, the model is not damped; " + modes.solver.text());
+        none.notes.push_back({NoteKind::no_mode_to_damp, {text_of(modes.solver.note())}});
         return none;
     }
     const SpectralAcceleration spectrum = [&](double frequency, double ratio) {

@@ -89,11 +89,8 @@ SlideResult slide_slammer(const GroundMotion& motion, const SlipStages& stages, 
     result.status = still != StaticState::at_rest ? status_of(still)
                     : state.rate != 0.0           ? Status::sliding_at_end
                                                   : Status::at_rest;
-    result.notes.push_back(
-        "SLAMMER's trapezoid scheme: second order in the time step, no run-out; the default scheme is exact.");
-    if (result.status == Status::sliding_at_end)
-        result.notes.push_back(
-            "Still sliding at the record's end, where this scheme stops: the slip is a lower bound.");
+    result.notes.push_back({NoteKind::trapezoid_scheme});
+    if (result.status == Status::sliding_at_end) result.notes.push_back({NoteKind::trapezoid_still_sliding});
     return result;
 }
 

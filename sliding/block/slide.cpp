@@ -120,56 +120,44 @@ void add_changes(const GroundMotion& motion, double slip, SlideResult& result)
     }
     const std::size_t left = motion.events.size() - result.events.size();
     if (left > 0 && (result.status == Status::at_rest || result.status == Status::sliding_at_end))
-        result.notes.push_back("The block did not come to rest after \"" + result.events.back().name + "\": " +
-                               std::to_string(left) + (left == 1 ? " event" : " events") + " of the sequence not run.");
+        result.notes.push_back(
+            {NoteKind::events_not_run, {result.events.back().name, static_cast<std::int64_t>(left)}});
 }
 
-std::string static_note(const SlipStages& stages, StaticState state)
+Note static_note(const SlipStages& stages, StaticState state)
 {
     const RigidBlock& block = stages.front().block;
-    if (state == StaticState::lifts_off)
-        return "The uplift carries more than the weight (N' = " + shortest(static_normal_force(block)) +
-               " N/m): the block floats without an earthquake; no friction would hold it.";
-    return std::string("The block slides ") + (state == StaticState::slides_downstream ? "downstream" : "upstream") +
-           " without an earthquake; a friction of " + shortest(critical_friction(block)) +
-           " or more would hold it (here " + shortest(block.friction) +
-           "). The slip is the one up to the record's end.";
+    if (state == StaticState::lifts_off) return {NoteKind::floats_statically, {static_normal_force(block)}};
+    return {state == StaticState::slides_downstream ? NoteKind::slides_statically_downstream
+                                                    : NoteKind::slides_statically_upstream,
+            {critical_friction(block), block.friction}};
 }
 
 void add_notes(const SlipStages& stages, StaticState state, const SlideOptions& options, SlideResult& result)
 {
     if (state != StaticState::at_rest) result.notes.push_back(static_note(stages, state));
     if (result.status == Status::sliding_at_end)
-        result.notes.push_back("Still sliding " + shortest(options.sliding.run_out_max) +
-                               " s after the record's end: the slip is a lower bound.");
+        result.notes.push_back({NoteKind::still_sliding, {options.sliding.run_out_max}});
+    const RateFriction& rate = stages.front().rate;
     if (result.status == Status::not_resolved)
-        result.notes.push_back("More events in one sample interval than a motion can have; the slip up to " +
-                               shortest(result.end_time) + " s is given." +
-                               (stages.front().rate.active() ? " Friction follows the rate within v_c = " +
-                                                                   shortest(*stages.front().rate.characteristic_rate) +
-                                                                   " m/s: give a larger contact.characteristic_rate."
-                                                             : ""));
-    if (result.accuracy == SlideAccuracy::series && stages.front().rate.active())
-        result.notes.push_back(
-            "Friction over the rate of slip: Taylor series to round-off, events located within 1e-10.");
+        result.notes.push_back(rate.active()
+                                   ? Note{NoteKind::many_events_of_rate, {result.end_time, *rate.characteristic_rate}}
+                                   : Note{NoteKind::many_events, {result.end_time}});
+    if (result.accuracy == SlideAccuracy::series && rate.active())
+        result.notes.push_back({NoteKind::rate_by_series});
     else if (result.accuracy == SlideAccuracy::series && options.anchors.empty())
-        result.notes.push_back("Friction linear in slip under a varying normal force has no closed form: Taylor series "
-                               "to round-off, events "
-                               "located within 1e-10.");
+        result.notes.push_back({NoteKind::slip_by_series});
     const RigidBlock& block = stages.front().block;
     if (block.opening && !(static_normal_force(block) > block.opening->largest()))
-        result.notes.push_back("The water in the crack that its sliding opens carries the whole block (N' = " +
-                               shortest(static_normal_force(block)) + " N/m at rest, uplift up to " +
-                               shortest(block.opening->largest()) + " N/m more): nothing resists while it slides.");
+        result.notes.push_back(
+            {NoteKind::crack_water_carries, {static_normal_force(block), block.opening->largest()}});
     if (block.opening && block.opening->slow)
-        result.notes.push_back("Water that needs time to come into the crack: with " +
-                               shortest(block.opening->slow->speed()) + " m/s it came " +
-                               shortest(std::round(1e3 * result.wet_length) / 1e3) + " m far at most.");
+        result.notes.push_back({NoteKind::crack_water_late,
+                                {block.opening->slow->speed(), std::round(1e3 * result.wet_length) / 1e3}});
     if (result.lift_offs > 0)
-        result.notes.push_back("The base opened " + std::to_string(result.lift_offs) +
-                               " times (N' = 0); lift-off is treated as " +
-                               (options.sliding.lift_off == LiftOff::ballistic ? "ballistic flight."
-                                                                               : "loss of resistance without flight."));
+        result.notes.push_back({options.sliding.lift_off == LiftOff::ballistic ? NoteKind::base_flew
+                                                                               : NoteKind::base_opened,
+                                {std::int64_t{result.lift_offs}}});
 }
 
 /// Longest cracks from heel and toe under a motion.
@@ -200,8 +188,9 @@ public:
         rests_ = now.next.get();
         state_ = static_state(now.stages.front().block);
         const bool stands = state_ == StaticState::at_rest;
-        result.notes.push_back("After \"" + result.events.back().name + "\": " + now.note +
-                               (stands ? "" : " It does not stand there: the sequence ends."));
+        result.notes.push_back(now.note);
+        result.notes.back().values.insert(result.notes.back().values.begin(), result.events.back().name);
+        if (!stands) result.notes.push_back({NoteKind::rest_falls});
         if (!stands) return false;
         block.stand_on(now.stages);
         return true;
@@ -293,9 +282,7 @@ SlideResult slide_with_error(const SkippingMotion& motion, const SlipStages& sta
     SlideOptions plain = options;
     plain.history = HistoryOutput::none;
     result.slip_error = std::abs(slide_exact(motion, coarser, plain, between).max_slip - result.max_slip);
-    result.notes.push_back("Its slip is known to " +
-                           shortest(1e3 * std::exp2(std::round(std::log2(result.slip_error)))) +
-                           " mm, by a table of this water of half the resolution.");
+    result.notes.push_back({NoteKind::known_to, {1e3 * std::exp2(std::round(std::log2(result.slip_error)))}});
     return result;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/note.hpp"
 #include "core/statistics.hpp"
 #include "core/status.hpp"
 #include "records/record.hpp"
@@ -122,7 +123,7 @@ struct SlideResult {
     double impact_loss = 0.0;           ///< kinetic energy that landings took, friction's impulses included [J/m]
     double wet_length = 0.0;            ///< how far water came into the crack at most (uplift.opening mouth) [m]
     std::vector<EventSlip> events;      ///< of a sequence, as far as they were reached; else empty
-    std::vector<std::string> notes;     ///< sentences for people
+    std::vector<Note> notes;            ///< what there is to say of it
     std::vector<AnchorOutcome> anchors; ///< in the order of the options
     SlideHistory history;
 };
@@ -174,7 +175,7 @@ public:
 
     struct Rest {
         SlipStages stages;                             ///< as many as before, from the same paths on
-        std::string note;                              ///< what it stands on, for people
+        Note note;                                     ///< rest_after: what it stands on
         std::shared_ptr<const RestBetweenEvents> next; ///< from there on
     };
     /// With cracks of these lengths [m]. Its first block says whether it stands (static_state()).

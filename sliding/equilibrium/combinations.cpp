@@ -140,20 +140,14 @@ Combination with_coefficients(Combination c, const PeakGround& peak)
 }
 
 /// What the program's own seismic combination takes of the records.
-std::string coefficients_note(const Criteria& criteria, const PeakGround& peak)
+void note_coefficients(const Criteria& criteria, const PeakGround& peak, std::vector<Note>& notes)
 {
-    std::string note = criteria.pga_fraction == 1.0
-                           ? "k_h is the largest PGA of the records in full (criteria.pga_fraction)"
-                           : fmt::format("k_h is {:.3g} of the largest PGA of the records (criteria.pga_fraction)",
-                                         criteria.pga_fraction);
-    if (peak.a_v == 0.0) return note;
-    return note + (criteria.pga_v_fraction == 0.0
-                       ? fmt::format("; k_v is 0 although the records have a vertical component of up to {:.3g} g "
-                                     "(criteria.pga_v_fraction)",
-                                     std::abs(peak.a_v) / units::standard_gravity)
-                       : fmt::format("; k_v is {:.3g} of their largest vertical acceleration and lightens the dam "
-                                     "(criteria.pga_v_fraction)",
-                                     criteria.pga_v_fraction));
+    notes.push_back(criteria.pga_fraction == 1.0 ? Note{NoteKind::k_h_full}
+                                                 : Note{NoteKind::k_h_share, {criteria.pga_fraction}});
+    if (peak.a_v == 0.0) return;
+    notes.push_back(criteria.pga_v_fraction == 0.0
+                        ? Note{NoteKind::k_v_zero, {std::abs(peak.a_v) / units::standard_gravity}}
+                        : Note{NoteKind::k_v_share, {criteria.pga_v_fraction}});
 }
 
 /// The joint that an extreme combination leaves behind.
@@ -257,7 +251,7 @@ std::vector<Equilibrium> evaluate_combinations(const Scene& scene, const PeakGro
         states[i] = reports(scene, all[i], seepage, {});
         if (all[i].kind == CombinationKind::extreme) joints.push_back(opened_by(all[i].name, states[i].back()));
         if (scene.combinations.empty() && all[i].kind == CombinationKind::extreme)
-            states[i].front().notes.push_back(coefficients_note(scene.criteria, peak));
+            note_coefficients(scene.criteria, peak, states[i].front().notes);
     }
     std::vector<Equilibrium> out;
     for (std::size_t i = 0; i < all.size(); ++i) {

@@ -173,8 +173,7 @@ void note_yield_forces(const Scene& scene, Equilibrium& e)
     for (const Anchor& anchor : scene.anchors) {
         if (!anchor.joint.empty() || force_of(anchor, AnchorForce::limit) == anchor.prestress) continue;
         const double slip = anchor_bar(anchor, 0.0).slip_to_yield();
-        e.notes.push_back(fmt::format("{} counts with its yield force, which it has after {:.3g} mm of slip",
-                                      anchor.name, slip / units::mm));
+        e.notes.push_back({NoteKind::yield_force_counts, {anchor.name, slip / units::mm}});
     }
 }
 
@@ -314,18 +313,17 @@ void add_checks(Equilibrium& e, const Combination& c, const Requirements& requir
 void add_notes(Equilibrium& e)
 {
     if (e.base.effective_normal <= 0.0)
-        e.notes.push_back("no effective normal force is left: the uplift carries the block");
+        e.notes.push_back({NoteKind::uplift_carries_block});
     else if (e.base.status == CrackStatus::open)
-        e.notes.push_back(
-            "no equilibrium without tension: the joint opens over the whole base and the block tips or rocks");
+        e.notes.push_back({NoteKind::opens_wholly});
     else if (e.base.status == CrackStatus::through)
         e.notes.push_back(
-            fmt::format("cracked through: what is left, {:.3g} m of {:.4g} m, would be pressed by {:.3g} MPa",
-                        e.base.compressed_length, e.frame.length,
-                        2.0 * e.base.effective_normal / (e.base.compressed_length * e.frame.share) / units::MPa));
+            {NoteKind::cracked_through,
+             {e.base.compressed_length, e.frame.length,
+              2.0 * e.base.effective_normal / (e.base.compressed_length * e.frame.share) / units::MPa}});
     if (e.crack_rule == CrackRule::none && std::min(e.heel_stress, e.toe_stress) < 0.0)
-        e.notes.push_back("tension across the base, no crack considered");
-    if (e.sliding_factor < 1.0) e.notes.push_back("slides: the shear exceeds the strength");
+        e.notes.push_back({NoteKind::tension_without_crack});
+    if (e.sliding_factor < 1.0) e.notes.push_back({NoteKind::shear_beyond_strength});
 }
 
 } // namespace

@@ -351,8 +351,7 @@ void check_flexible(const FlexibleBlock& flexible, const SlipStages& stages)
 void note_vibration(const SlideOptions& options, SlideResult& result)
 {
     result.status = Status::sliding_at_end;
-    result.notes.push_back("Still vibrating " + shortest(options.sliding.run_out_max) +
-                           " s after the record's end, enough to slide again: the slip is a lower bound.");
+    result.notes.push_back({NoteKind::still_vibrating, {options.sliding.run_out_max}});
 }
 
 FlexibleSlide slide_coupled(const GroundMotion& motion, const SlipStages& stages, const FlexibleBlock& flexible,
@@ -363,8 +362,7 @@ FlexibleSlide slide_coupled(const GroundMotion& motion, const SlipStages& stages
     FlexibleSlide result;
     if (const StaticState still = static_state(stages.front().block); still != StaticState::at_rest) {
         result.slide.status = status_of(still);
-        result.slide.notes.push_back(
-            "The block slides or floats without an earthquake: its vibration is not followed.");
+        result.slide.notes.push_back({NoteKind::vibration_not_followed});
         return result;
     }
     const bool vertical = !motion.accel_v.empty(), history = options.history == HistoryOutput::samples;
@@ -387,8 +385,7 @@ FlexibleSlide slide_coupled(const GroundMotion& motion, const SlipStages& stages
     result.peak_acceleration = block.peak_acceleration();
     if (block.moving()) {
         result.slide.status = Status::sliding_at_end;
-        result.slide.notes.push_back("Still sliding " + shortest(options.sliding.run_out_max) +
-                                     " s after the record's end: the slip is a lower bound.");
+        result.slide.notes.push_back({NoteKind::still_sliding, {options.sliding.run_out_max}});
     } else if (!block.at_rest_for_good()) {
         note_vibration(options, result.slide);
     }

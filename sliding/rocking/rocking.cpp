@@ -29,21 +29,15 @@ Status status_of(const RockingMotion& motion, const RockingBlock& block, StaticS
 
 void add_notes(const RockingMotion& motion, const SlideOptions& options, RockingResult& result)
 {
-    std::vector<std::string>& notes = result.slide.notes;
+    std::vector<Note>& notes = result.slide.notes;
     if (result.slide.status == Status::overturned)
-        notes.push_back("It turns by 90 degrees at " + shortest(result.overturned_time) + " s.");
+        notes.push_back({NoteKind::turned_over, {result.overturned_time}});
     if (result.slide.status == Status::sliding_at_end)
-        notes.push_back("Still moving " + shortest(options.sliding.run_out_max) +
-                        " s after the record's end: the slip is a lower bound.");
+        notes.push_back({NoteKind::still_moving, {options.sliding.run_out_max}});
     if (result.slide.status == Status::not_resolved)
-        notes.push_back((motion.jammed()
-                             ? std::string("Friction holds the corner that slides however hard it is driven "
-                                           "(Painlevé's paradox)")
-                             : std::string("More events in one sample interval than a motion can have")) +
-                        " at " + shortest(result.slide.end_time) + " s.");
+        notes.push_back({motion.jammed() ? NoteKind::jammed_corner : NoteKind::many_events_at, {result.slide.end_time}});
     if (result.slide.lift_offs > 0)
-        notes.push_back("The block lost its weight " + std::to_string(result.slide.lift_offs) +
-                        " times (N' = 0): no resistance then, and no flight.");
+        notes.push_back({NoteKind::lost_weight, {std::int64_t{result.slide.lift_offs}}});
 }
 
 } // namespace

@@ -264,7 +264,7 @@ SlideResult slide_wedge(const GroundMotion& motion, const WedgeYields& yields, c
     scale(r, yield.factor);
     restore_yield(r.history, motion, yield.law.per_a_v);
     if (r.status == Status::static_failure)
-        r.notes = {"The wedge slides without an earthquake. The slip is the one up to the record's end."};
+        r.notes = {{NoteKind::wedge_slides}};
     return r;
 }
 

@@ -153,7 +153,7 @@ void add_fe(py::module_& module)
     run.def_property_readonly("record", [](const FeRun& r) { return r.run->record; })
         .def_property_readonly("polarity", [](const FeRun& r) { return r.run->polarity; })
         .def_property_readonly("status", [](const FeRun& r) { return word(r.run->fe.status); })
-        .def_property_readonly("message", [](const FeRun& r) { return r.run->fe.message; })
+        .def_property_readonly("message", [](const FeRun& r) { return text_of(r.run->fe.notes); })
         .def_property_readonly("verdict", [](const FeRun& r) { return word(verdict_of(*r.run, r.of->allowable())); })
         .def_property_readonly("slip", [](const FeRun& r) { return reported(r.run->fe.status, r.run->fe.slip); })
         .def_property_readonly("max_slip",

@@ -107,7 +107,7 @@ TEST(Audit3, C_ChecksAreOneMatrix)
     const Scene given = read_scene(f.dam(0.9, cadam));
     const Ready ready = prepare(given, Method::rigid_block);
     const auto combinations = run_screening(ready, 1).combinations;
-    const Table matrix = sliding::check_matrix(combinations);
+    const Table matrix = pages::check_matrix(combinations);
     ASSERT_EQ(combinations.size(), 3u);
     ASSERT_EQ(matrix.rows.size(), 3u); // a row for each combination, and for the crack that the earthquake opens
     EXPECT_EQ(matrix.rows[2][0], Cell("quake, cracked"));

@@ -53,7 +53,7 @@ TEST(Audit3, A16_SelfExcitedAtEveryScale)
         SCOPED_TRACE(friction);
         const fe2d::RunResult own = run(1.0, friction), large = run(4.0, friction);
         self_excited += own.status == Status::self_excited;
-        EXPECT_EQ(large.status, own.status) << own.message << "\n" << large.message;
+        EXPECT_EQ(large.status, own.status) << text_of(own.notes) << "\n" << text_of(large.notes);
         EXPECT_NEAR(large.end_time, 2.0 * own.end_time, 0.1);
         EXPECT_NEAR(large.max_slip, 4.0 * own.max_slip, 1e-4 * own.max_slip);
     }

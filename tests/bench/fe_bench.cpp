@@ -93,7 +93,7 @@ void default_case(double friction)
 }
 
 /// Frictions of one motion in lockstep, beside the same runs one by one.
-void lockstep_case(int lanes)
+void lockstep_case(int batch)
 {
     Scene scene = [] {
         Scene s = fe2d::test::sliding_dam(0.77, 1.0, 0.5);
@@ -105,9 +105,9 @@ void lockstep_case(int lanes)
     scene.time.substeps = 0;
     const GroundMotion motion = fe2d::test::sines(1.0);
     std::vector<Contact> contacts;
-    for (int i = 0; i < lanes; ++i) {
+    for (int i = 0; i < batch; ++i) {
         contacts.emplace_back();
-        contacts.back().friction = 0.66 + 0.34 * i / std::max(1, lanes - 1);
+        contacts.back().friction = 0.66 + 0.34 * i / std::max(1, batch - 1);
     }
     const fe2d::EarthquakeRun run(scene, options);
     run.run(motion, contacts.back()); // factorises
@@ -116,7 +116,7 @@ void lockstep_case(int lanes)
     const double single = processor_seconds();
     run.run_all(motion, contacts);
     const double together = processor_seconds();
-    std::printf("%-22s %6d | %8.3f %8.3f %5.2f | %d\n", "7000 unknowns", lanes, single - start, together - single,
+    std::printf("%-22s %6d | %8.3f %8.3f %5.2f | %d\n", "7000 unknowns", batch, single - start, together - single,
                 (single - start) / (together - single), run.factorisations());
 }
 
@@ -457,9 +457,9 @@ int main(int count, char** words)
                 "%12s %10s\n",
                 "motion", "mu", "smallest", "steps", "all", "slip", "error", "steps", "all", "slip", "error");
     for (const GroundMotion& motion : {fe2d::test::sines(1.0), with_coda()}) stepping_case(motion, 0.77);
-    std::printf("\nfrictions in lockstep\n%-22s %6s | %8s %8s %5s | %s\n", "case", "lanes", "singly", "in step",
+    std::printf("\nfrictions in lockstep\n%-22s %6s | %8s %8s %5s | %s\n", "case", "batch", "singly", "in step",
                 "ratio", "factorisations");
-    for (const int lanes : {2, 4, 6}) lockstep_case(lanes);
+    for (const int batch : {2, 4, 6}) lockstep_case(batch);
     std::printf("\nacoustic water beside added mass, steps of 0.01 s; ratio of the runs, and set-up included\n"
                 "%-22s %5s %5s %6s %6s | %8s %8s | %8s %8s | %5s %5s | %12s %12s\n",
                 "case", "mu", "rows", "dam", "water", "set-up", "run", "set-up", "run", "ratio", "all", "slip, added",

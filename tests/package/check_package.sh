@@ -17,7 +17,7 @@ CXXFLAGS=-O0 "$cmake" -S "$source/examples/api" -B "$work/build" -G "$generator"
 damslip=$work/prefix/bin/damslip
 examples=$work/prefix/share/damslip/examples
 scene=$examples/short.toml
-{ sed 's/^\[reservoir\]/&\nmodel = "added-mass"/' "$examples/reference_dam_profile.toml"; printf '\n[time]\nsubsteps = 2\n'; } >"$scene"
+{ sed 's/^\[reservoir\]/&\nmodel = "added-mass"/' "$examples/reference_dam_profile.toml"; printf '\n[time]\nsubsteps = 2\n[mesh]\nsize_m = 9\ncontact_size_m = 5\nrock_size_m = 20\n'; } >"$scene" # few elements
 cd "$work"
 same() { [ "$1" = "$2" ] || fail "$3: \"$1\", but damslip says \"$2\""; }
 # printed KEY: all its values in indented JSON, as the programs print them
@@ -35,7 +35,5 @@ build/sweep "$scene" 2>progress.txt | tee sweep.txt
 grep -q '100 %' progress.txt || fail "sweep tells no progress"
 same "$(sed -n 's/.*slip \([0-9.]*\) mm.*/\1/p' sweep.txt)" \
      "$("$damslip" sweep "$scene" --friction 0.7,0.8,0.9 --method rigid,fe --json --quiet | printed_mm slip_m)" "sweep"
-coarse=$examples/coarse.toml # all model levels of a dam of few elements
-{ cat "$scene"; printf '[mesh]\nsize_m = 9\ncontact_size_m = 5\nrock_size_m = 20\n'; } >"$coarse"
-build/accuracy "$coarse" | tee accuracy.txt
+build/accuracy "$scene" | tee accuracy.txt
 grep -q '^fe-' accuracy.txt || fail "accuracy ran no finite elements"

@@ -43,7 +43,7 @@ TEST(Rocking, EnergyIsKept)
         SlideOptions options;
         if (seed % 5 == 0) options.sliding.restitution = 0.2 * (seed % 6);
         const RockingResult r = rock_and_slide(d.motion, block_of(d.scene), options);
-        if (!is_answer(r.slide.status)) ADD_FAILURE() << word(r.slide.status) << ": " << r.slide.notes.front();
+        if (!is_answer(r.slide.status)) ADD_FAILURE() << word(r.slide.status) << ": " << text_of(r.slide.notes.front());
         EXPECT_NEAR(r.energy.imbalance, 0.0, 1e-8);
         EXPECT_GE(r.energy.friction, 0.0);
         EXPECT_GE(r.energy.landings, 0.0);

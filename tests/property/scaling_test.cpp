@@ -62,7 +62,7 @@ TEST(Scaling, ElasticSlipGoesWithTheLengthWhenTheModuliDo)
         }
         const fe2d::RunResult own = fe_run(d);
         const std::size_t last = d.motion.accel_h.size() - 1;
-        ASSERT_GT(own.history.slip.size(), last) << own.message;
+        ASSERT_GT(own.history.slip.size(), last) << text_of(own.notes);
         const double slip = own.history.slip[last];
         slid += std::abs(slip) > 1e-4;
         for (const double length : {2.0, 4.0}) {

@@ -35,6 +35,7 @@ spread() { # NAME KILLS
         "$damslip" fragility "$work/${scene:-dam}.toml" "${sizes[@]}" --out "$work/killed" --jobs 1 -q >"$work/talk" 2>&1 & process=$!
         until [ "$(wc -c 2>/dev/null <"$work/killed/samples.sqlite" || echo 0)" -ge $((full * (k - 1) / (kills + 1))) ]; do
             kill -0 "$process" 2>/dev/null || break
+            sleep 0.01
         done
         kill -KILL "$process" 2>/dev/null && killed=$((killed + 1))
         wait "$process" 2>/dev/null || true

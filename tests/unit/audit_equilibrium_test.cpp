@@ -1,6 +1,7 @@
 #include "analysis/screen/screening.hpp"
 #include "core/input_error.hpp"
 #include "core/units.hpp"
+#include "pages/scene/scene_pages.hpp"
 #include "program_answer.hpp"
 #include "scene/read.hpp"
 #include "scene/section.hpp"
@@ -403,7 +404,7 @@ TEST(Audit, A8_follows_names_the_earthquake)
     const auto all = evaluate_combinations(scene);
     EXPECT_EQ(all.back().follows, "zero");
     EXPECT_EQ(all.back().base.crack.length, state_named(all, "zero").base.crack.length);
-    const Table table = equilibrium_table(all);
+    const Table table = pages::equilibrium_table(all);
     const auto column =
         std::find_if(table.columns.begin(), table.columns.end(), [](const Column& c) { return c.key == "follows"; });
     ASSERT_NE(column, table.columns.end());
@@ -497,7 +498,7 @@ TEST(Audit, B5_a_joint_cracked_through_has_no_stresses)
     EXPECT_EQ(none.cohesive_length, 0.0);
     EXPECT_EQ(none.zone, ResultantZone::outside);
     ASSERT_FALSE(none.notes.empty());
-    EXPECT_TRUE(has(none.notes.front(), "cracked through: what is left, 0.09 m of 6 m")) << none.notes.front();
+    EXPECT_TRUE(has(text_of(none.notes.front()), "cracked through: what is left, 0.09 m of 6 m")) << text_of(none.notes.front());
     EXPECT_STREQ(word(none.base.status), "cracked through");
     // 3 % of a base of 200 m below 600 m of concrete: 2 W/(3 d) is beyond the strength of any.
     CrackedBase high;

@@ -330,7 +330,7 @@ ContactRun made_up_run(Status status, double slip, double step_error)
     run.fe.status = status;
     run.fe.slip = run.fe.max_slip = slip;
     run.fe.slip_error = step_error;
-    run.fe.message = "what happened.";
+    run.fe.notes = {{NoteKind::in_record, {"what happened"}}};
     run.fe.after.name = "after the earthquake";
     return run;
 }

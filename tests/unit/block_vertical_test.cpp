@@ -234,6 +234,6 @@ TEST(BlockVertical, static_sliding_is_told)
     EXPECT_EQ(result.status, Status::static_failure);
     EXPECT_LT(relative(result.slip, 0.5), 1e-13); // s'' = 1 for the record's 1 s, no run-out
     ASSERT_FALSE(result.notes.empty());
-    EXPECT_NE(result.notes.front().find("0.4"), std::string::npos) << result.notes.front();
+    EXPECT_NE(text_of(result.notes.front()).find("0.4"), std::string::npos) << text_of(result.notes.front());
     EXPECT_NEAR(critical_friction(block), 0.4, 1e-15);
 }

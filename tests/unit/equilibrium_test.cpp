@@ -2,6 +2,7 @@
 #include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include "core/input_error.hpp"
+#include "pages/scene/scene_pages.hpp"
 #include "verification/exact/cracked_base.hpp"
 #include "verification/exact/reference_scene.hpp"
 
@@ -357,8 +358,8 @@ TEST(Equilibrium, TablesHaveACellPerColumn)
     const auto models = compare_uplift(scene);
     ASSERT_EQ(models.size(), 4u);
     EXPECT_NEAR(models[1].critical_friction, 19160156.25 / (39233868.75 - 22.5 * 613125.0), 1e-14);
-    for (const Table& table : {load_table(all.back()), equilibrium_table(all), verdict_table(all),
-                               uplift_comparison_table(models)}) {
+    for (const Table& table : {pages::load_table(all.back()), pages::equilibrium_table(all), pages::verdict_table(all),
+                               pages::uplift_comparison_table(models)}) {
         EXPECT_FALSE(table.rows.empty());
         for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.title;
     }

@@ -37,7 +37,7 @@ TEST(FeAdaptiveStep, CostsFewerStepsAndKeepsTheAccuracy)
     const RunOptions options = options_of(scene);
     const double exact = EarthquakeRun(fine, options).run(motion).slip;
     const RunResult r = EarthquakeRun(adaptive(scene), options).run(motion);
-    ASSERT_EQ(r.status, Status::at_rest) << r.message;
+    ASSERT_EQ(r.status, Status::at_rest) << text_of(r.notes);
     EXPECT_GT(exact, 0.01);
     EXPECT_GT(r.halvings, 1);
     EXPECT_NEAR(r.slip, exact, 0.011 * exact);

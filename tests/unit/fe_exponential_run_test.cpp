@@ -42,7 +42,7 @@ TEST(FeExponentialRun, a_block_rests_at_one_clearance)
     Strength strength(scene.contact, plane);
     ContactMemory memory(plane.pairs());
     const auto stages = run.statics(statics, strength, memory);
-    ASSERT_EQ(stages.back().status, StageStatus::ok) << stages.back().text();
+    ASSERT_EQ(stages.back().status, StageStatus::ok) << text_of(stages.back().notes());
     const double clearance = ExponentialPressure(1e6, 1e-3).clearance(2400.0 * 9.81 * 4.0);
     EXPECT_NEAR(memory.opening.minCoeff(), clearance, 1e-10 * 1e-3);
     EXPECT_NEAR(memory.opening.maxCoeff(), clearance, 1e-10 * 1e-3);
@@ -151,7 +151,7 @@ TEST(FeExponentialRun, slip_tends_to_that_of_hard_contact)
     const GroundMotion motion = sines(1.5, 6.0);
     const auto slip = [&](const Scene& s) {
         const RunResult r = EarthquakeRun(s, options_of(s)).run(motion);
-        EXPECT_EQ(r.status, Status::at_rest) << r.message;
+        EXPECT_EQ(r.status, Status::at_rest) << text_of(r.notes);
         EXPECT_EQ(r.counts.unresolved, 0);
         EXPECT_LT(r.energy_error, 1e-10);
         return r.slip;

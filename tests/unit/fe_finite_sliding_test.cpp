@@ -125,11 +125,11 @@ TEST(FeFiniteSliding, slides_metres_over_flexible_rock)
     for (const auto& [acceleration, seconds] : pushes) {
         const GroundMotion motion = push(acceleration, seconds, 14.0);
         const RunResult a = small.run(motion), b = finite.run(motion);
-        ASSERT_EQ(b.status, Status::at_rest) << b.message;
+        ASSERT_EQ(b.status, Status::at_rest) << text_of(b.notes);
         EXPECT_NEAR(b.slip, a.slip, 1e-4 * a.slip) << acceleration;
         EXPECT_EQ(b.counts.unresolved, 0);
         EXPECT_LT(b.energy_error, 1e-10) << acceleration;
-        EXPECT_EQ(b.after.status, StageStatus::ok) << b.after.text();
+        EXPECT_EQ(b.after.status, StageStatus::ok) << text_of(b.after.notes());
         // At rest the joint carries the loads, wherever the dam stands; after the longest push 1.3e-5 of N' still
         // rings, with and without finite sliding.
         const double normal = b.history.normal_force.front();
@@ -154,7 +154,7 @@ TEST(FeFiniteSliding, leaving_the_meshed_plane_is_a_status)
     scene.contact.max_slip = 0.1;
     const RunResult result = EarthquakeRun(scene, options).run(push(3.0, 2.4, 8.0));
     EXPECT_EQ(result.status, Status::left_plane);
-    EXPECT_NE(result.message.find("max_slip"), std::string::npos) << result.message;
+    EXPECT_NE(text_of(result.notes).find("max_slip"), std::string::npos) << text_of(result.notes);
     EXPECT_GT(result.slip, 0.1);
     EXPECT_GT(result.history.time.size(), 100u);
 }

@@ -84,7 +84,7 @@ TEST(FeFluid, step_matrix_has_the_inertia_of_its_parts)
         const StepConstants c = step_constants(hht(-0.05), dt);
         LinearSolver solver({.definiteness = Definiteness::quasi_definite});
         const SparseMatrix step = c.a0 * coupled.mass + 0.95 * (c.a1 * coupled.damping + coupled.stiffness);
-        ASSERT_TRUE(solver.factorise(step).ok()) << solver.report().text();
+        ASSERT_TRUE(solver.factorise(step).ok()) << text_of(solver.report().note());
         EXPECT_EQ(solver.report().negative_pivots, water.mesh_unknowns + water.layer_pressures);
         EXPECT_LT(solver.report().residual, 1e-12);
     }
@@ -143,7 +143,7 @@ TEST(FeFluid, water_at_rest_stays_at_rest)
     TiedRunOptions options;
     options.water = &water;
     const History history = integrate(model, still, options);
-    ASSERT_EQ(history.status, TiedRunStatus::complete) << history.status_text;
+    ASSERT_EQ(history.status, TiedRunStatus::complete) << text_of(history.ending);
     EXPECT_EQ(history.peak_crest_x, 0.0);
     EXPECT_EQ(history.peak_water_force, 0.0);
     EXPECT_EQ(history.unknowns, model.dofs.count + water.unknowns());

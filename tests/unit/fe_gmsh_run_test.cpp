@@ -31,7 +31,7 @@ double contact_slip_of(Scene scene)
     RunOptions options;
     scene.time.substeps = 1;
     const RunResult result = EarthquakeRun(scene, options).run(sine_pulses());
-    EXPECT_EQ(result.status, Status::at_rest) << result.message;
+    EXPECT_EQ(result.status, Status::at_rest) << text_of(result.notes);
     return result.slip;
 }
 

@@ -28,7 +28,7 @@ void slides_as_on_facing_nodes(JointPath range)
         const EarthquakeRun run(scene, options);
         EXPECT_EQ(run.model().mesh.contact.matching, ratio == 0.0);
         const RunResult result = run.run(motion);
-        ASSERT_EQ(result.status, Status::at_rest) << result.message;
+        ASSERT_EQ(result.status, Status::at_rest) << text_of(result.notes);
         EXPECT_EQ(result.counts.unresolved, 0);
         EXPECT_LT(result.energy_error, 1e-9);
         EXPECT_GT(result.slip, 1e-3);

@@ -109,7 +109,7 @@ TEST(FePlanes, StiffUpperBlockSlidesAsARigidBlock)
     const double rigid = sliding::slide(motion, sliding::make_rigid_block(upper)).slip;
     ASSERT_GT(std::abs(rigid), 0.05);
     const RunResult result = EarthquakeRun(scene, stiff_options(scene)).run(motion);
-    ASSERT_EQ(result.status, Status::at_rest) << result.message;
+    ASSERT_EQ(result.status, Status::at_rest) << text_of(result.notes);
     ASSERT_EQ(result.lifts.size(), 1u);
     EXPECT_NEAR(result.lifts[0].slip, rigid, 0.01 * std::abs(rigid)); // as the dam itself: first order in the step
     EXPECT_LT(std::abs(result.slip), 1e-6); // single pairs at heel and toe, where the traction is singular
@@ -127,7 +127,7 @@ TEST(FePlanes, BothPlanesOfTwoStiffBlocksSlide)
     ASSERT_GT(std::abs(rigid.base), 0.02);
     ASSERT_GT(std::abs(rigid.joint), 0.02);
     const RunResult result = EarthquakeRun(scene, stiff_options(scene)).run(motion);
-    ASSERT_EQ(result.status, Status::at_rest) << result.message;
+    ASSERT_EQ(result.status, Status::at_rest) << text_of(result.notes);
     EXPECT_NEAR(result.slip, rigid.base, 0.01 * std::abs(rigid.base));
     EXPECT_NEAR(result.lifts[0].slip, rigid.joint, 0.01 * std::abs(rigid.joint));
     EXPECT_LT(result.energy_error, 1e-9);
@@ -143,7 +143,7 @@ TEST(FePlanes, FlexibleDamWithTwoJointsIsInEquilibriumAndItsEnergyCloses)
     const EarthquakeRun run(scene, options);
     const RunResult result = run.run(sines(1.0, 8.0));
     ASSERT_EQ(result.stages.size(), 3u);
-    for (const StageResult& stage : result.stages) EXPECT_EQ(stage.status, StageStatus::ok) << stage.text();
+    for (const StageResult& stage : result.stages) EXPECT_EQ(stage.status, StageStatus::ok) << text_of(stage.notes());
     const PlaneBalance& top = result.stages.back().lifts[1];
     const double weight = 2500.0 * 9.81 * 12.0 * 11.0, water = 0.5 * 9810.0 * 11.0 * 11.0;
     EXPECT_NEAR(top.resultant.normal_force, weight, 1e-9 * weight);
@@ -151,7 +151,7 @@ TEST(FePlanes, FlexibleDamWithTwoJointsIsInEquilibriumAndItsEnergyCloses)
     EXPECT_NEAR(top.resultant.position, 6.0 + water * 11.0 / 3.0 / weight, 1e-9);
     EXPECT_NEAR(result.history.lifts[1].normal_force[0], weight, 1e-9 * weight);
     EXPECT_NEAR(result.history.normal_force[0], result.stages.back().resultant.normal_force, 1.0);
-    ASSERT_EQ(result.status, Status::at_rest) << result.message;
+    ASSERT_EQ(result.status, Status::at_rest) << text_of(result.notes);
     EXPECT_GT(result.lifts[1].largest_slip, 1e-4);
     EXPECT_LT(result.energy_error, 1e-10);
     EXPECT_LT(result.counts.largest_residual, 1e-8);
@@ -185,8 +185,8 @@ TEST(FePlanes, WeakJointFailsBeforeTheEarthquake)
     scene.lift_joints.push_back(joint_at(51.5, 0.1)); // needs water/weight = 0.183
     const RunResult result = EarthquakeRun(scene, options_of(scene)).run(sines(1.0, 1.0));
     EXPECT_EQ(result.status, Status::static_failure);
-    EXPECT_NE(result.message.find("above the lift joint at 51.5 m slides"), std::string::npos) << result.message;
-    EXPECT_NE(result.message.find("mu >= 0.183"), std::string::npos) << result.message;
+    EXPECT_NE(text_of(result.notes).find("above the lift joint at 51.5 m slides"), std::string::npos) << text_of(result.notes);
+    EXPECT_NE(text_of(result.notes).find("mu >= 0.183"), std::string::npos) << text_of(result.notes);
 }
 
 } // namespace

@@ -51,7 +51,7 @@ TEST(FePoreRun, ADamThatSticksStandsWhereTheTiedDamDoes)
     for (const PorePressure form : {PorePressure::total, PorePressure::effective}) {
         const Scene scene = sticking_dam(form);
         const RunResult result = at_rest(scene, crest);
-        ASSERT_EQ(result.status, Status::at_rest) << result.message;
+        ASSERT_EQ(result.status, Status::at_rest) << text_of(result.notes);
         EXPECT_LT(result.pair_slip.cwiseAbs().maxCoeff(), 1e-12);
         EXPECT_EQ(result.stages.back().open_length, 0.0);
         const double moved = (crest - dry).norm();

@@ -76,7 +76,7 @@ TEST(FeMovingBase, MasslessRockGivesTheRunOnCondensedRock)
             return rock_base(rock, constants, stiffness_damping);
         };
         const History coupled = integrate(model, motion, options);
-        ASSERT_EQ(condensed.rows.size(), coupled.rows.size()) << coupled.status_text;
+        ASSERT_EQ(condensed.rows.size(), coupled.rows.size()) << text_of(coupled.ending);
         for (std::size_t k = 0; k < coupled.rows.size(); ++k) {
             ASSERT_NEAR(coupled.rows[k].crest_x, condensed.rows[k].crest_x, 1e-9 * condensed.peak_crest_x);
             ASSERT_NEAR(coupled.rows[k].base_shear, condensed.rows[k].base_shear, 1e-8 * condensed.peak_base_shear);

@@ -153,7 +153,7 @@ void expect_slips_of_full_runs(const Scene& scene)
             contact.friction = friction;
             const RunResult expected = full.run(ground, contact);
             const RunResult result = reduced.run(ground, contact);
-            ASSERT_EQ(result.status, expected.status) << result.message << expected.message;
+            ASSERT_EQ(result.status, expected.status) << text_of(result.notes) << text_of(expected.notes);
             ASSERT_EQ(result.modes, default_modes);
             EXPECT_GT(expected.max_slip, 1e-4) << friction;
             EXPECT_LT(fe2d::largest_difference(result.history.slip, expected.history.slip),
@@ -198,7 +198,7 @@ TEST(FeReduction, reduced_water_is_passive)
     const EarthquakeRun full(scene, options_of(scene));
     const DamModes modes = dam_modes(full.structure(), 12);
     const ReducedWater water = reduce_water(*full.water(), modes.face, 160.0);
-    EXPECT_TRUE(water.report.passed()) << water.missed_gate();
+    EXPECT_TRUE(water.report.passed()) << text_of(water.missed_gate());
     EXPECT_LT(water.count(), water.report.unknowns / 3);
     const Eigen::Index p = water.pressures(), w = water.momenta;
     EXPECT_GT(w, 0);
@@ -224,7 +224,7 @@ TEST(FeReduction, water_that_misses_its_gate_says_so)
     const ReducedWater water = reduce_water(*full.water(), dam_modes(full.structure(), 12).face, 160.0, strict);
     EXPECT_FALSE(water.report.passed());
     EXPECT_EQ(water.report.rounds, 2);
-    EXPECT_NE(water.missed_gate().find("are allowed: run without --reduced."), std::string::npos);
+    EXPECT_NE(text_of(water.missed_gate()).find("are allowed: run without --reduced."), std::string::npos);
 }
 
 /// Between the mark and the numbers of a file of RockStore: its length in 8 bytes, then the key, which begins "2 nu".
@@ -249,7 +249,7 @@ TEST(FeReduction, rock_that_missed_its_gate_gives_no_slip)
     const GroundMotion motion = sines(1.5, 2.0);
     {
         const EarthquakeRun full(scene, options);
-        EXPECT_EQ(full.why_not(), "");
+        EXPECT_EQ(text_of(full.why_not()), "");
         EXPECT_EQ(ReducedRun(full, scene, options).run(motion).status, Status::at_rest);
     }
     const fs::path file = fs::directory_iterator(folder)->path();
@@ -264,10 +264,10 @@ TEST(FeReduction, rock_that_missed_its_gate_gives_no_slip)
     const RunResult run = full.run(motion);
     const RunResult reduced = ReducedRun(full, scene, options).run(motion);
     EXPECT_EQ(run.status, Status::not_resolved);
-    EXPECT_EQ(run.message, "The radiating rock's reduction errs by 5 %, 2 % are allowed: give a smaller "
+    EXPECT_EQ(text_of(run.notes), "The radiating rock's reduction errs by 5 %, 2 % are allowed: give a smaller "
                            "foundation.wave_frequency_Hz.");
     EXPECT_EQ(reduced.status, run.status);
-    EXPECT_EQ(reduced.message, run.message);
+    EXPECT_EQ(text_of(reduced.notes), text_of(run.notes));
     EXPECT_FALSE(reported(reduced.status, reduced.slip).has_value());
     fs::remove_all(folder);
 }

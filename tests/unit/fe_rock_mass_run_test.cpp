@@ -37,7 +37,7 @@ TEST(FeRockMassRun, KeptStatesAreThoseOfTheModel)
         const EarthquakeRun run(scene, options);
         const RunResult result = run.run(test::sines(1.0, 4.0));
         const auto states = result.history.states.states();
-        ASSERT_GE(states.size(), 2u) << result.message;
+        ASSERT_GE(states.size(), 2u) << text_of(result.notes);
         const Eigen::VectorXd end = run.displacement_of(states.back());
         ASSERT_EQ(end.size(), run.model().dofs.count);
         EXPECT_EQ(end, result.displacement);
@@ -91,7 +91,7 @@ TEST(FeRockMassRun, StepsThatCannotBeFactorisedAreAStatus)
     scene.dam.density = 1e304;
     const RunResult result = EarthquakeRun(scene, options).run(test::sines(1.0, 1.0));
     EXPECT_NE(result.status, Status::at_rest);
-    EXPECT_FALSE(result.message.empty());
+    EXPECT_FALSE(result.notes.empty());
 }
 
 // A crest that falls upstream is wet below the highest point: the thrust is that on the whole height of the water.

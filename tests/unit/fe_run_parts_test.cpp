@@ -258,21 +258,21 @@ TEST(FeRunParts, levels_of_vector_instructions_give_the_same_bits)
 }
 
 // Vectors of several runs side by side go through the factor as each of them alone: 7 are 4, 2 and 1.
-TEST(FeRunParts, lanes_have_the_bits_of_one)
+TEST(FeRunParts, columns_have_the_bits_of_one)
 {
     const Model model = parts_model();
     const ContactStructure structure(model);
     const InterfaceFactor factor(4e4 * structure.mass() + structure.stiffness(), structure.order().inner);
     std::vector<VectorXd> together, alone;
-    for (int lane = 0; lane < 7; ++lane) together.push_back((1.0 + 0.3 * lane) * uneven(structure.dam_unknowns()));
+    for (int batched = 0; batched < 7; ++batched) together.push_back((1.0 + 0.3 * batched) * uneven(structure.dam_unknowns()));
     alone = together;
-    std::vector<VectorXd*> lanes;
-    for (VectorXd& vector : together) lanes.push_back(&vector);
+    std::vector<VectorXd*> batch;
+    for (VectorXd& vector : together) batch.push_back(&vector);
     std::vector<double> gathered;
-    factor.forward(lanes, gathered);
+    factor.forward(batch, gathered);
     for (VectorXd& vector : alone) factor.forward(vector);
     EXPECT_TRUE(together == alone);
-    factor.backward(lanes, gathered);
+    factor.backward(batch, gathered);
     for (VectorXd& vector : alone) factor.backward(vector);
     EXPECT_TRUE(together == alone);
 }

@@ -50,7 +50,7 @@ TEST(FeRun, stages_are_in_equilibrium_and_know_the_friction_that_holds)
     const RunResult result = run.run(silence(0.5, 0.01));
     ASSERT_EQ(result.stages.size(), 3u);
     for (const StageResult& stage : result.stages) {
-        EXPECT_EQ(stage.status, StageStatus::ok) << stage.text();
+        EXPECT_EQ(stage.status, StageStatus::ok) << text_of(stage.notes());
         EXPECT_LT(stage.contact.residual, 1e-12);
     }
     const BaseResultant& base = result.stages.back().resultant;
@@ -63,7 +63,7 @@ TEST(FeRun, stages_are_in_equilibrium_and_know_the_friction_that_holds)
 
     const RunResult fails = run.run(silence(0.5, 0.01), with_friction(expected - 1e-5));
     EXPECT_EQ(fails.status, Status::static_failure);
-    EXPECT_NE(fails.message.find("slides without any earthquake"), std::string::npos) << fails.message;
+    EXPECT_NE(text_of(fails.notes).find("slides without any earthquake"), std::string::npos) << text_of(fails.notes);
     EXPECT_TRUE(fails.history.time.empty());
     EXPECT_NE(run.run(silence(0.5, 0.01), with_friction(expected + 1e-4)).status, Status::static_failure);
 }
@@ -117,7 +117,7 @@ TEST(FeRun, stiff_dam_slides_as_the_rigid_block)
     const EarthquakeRun run(scene, options);
     for (const GroundMotion& motion : {sines(1.0, 10.0), flipped(sines(1.0, 10.0))}) {
         const RunResult result = run.run(motion);
-        ASSERT_EQ(result.status, Status::at_rest) << result.message;
+        ASSERT_EQ(result.status, Status::at_rest) << text_of(result.notes);
         const double rigid = sliding::slide(motion, sliding::make_rigid_block(scene)).slip;
         EXPECT_GT(rigid, 0.02);
         EXPECT_NEAR(result.slip, rigid, 0.01 * rigid);
@@ -201,7 +201,7 @@ TEST(FeRun, can_be_interrupted)
     EXPECT_EQ(half.status, Status::interrupted);
     EXPECT_EQ(half.history.time.size(), 251u); // 250 of 500 steps, and the start
     EXPECT_NEAR(half.end_time, 2.5, 1e-9);
-    EXPECT_NE(half.message.find("Interrupted at 2.50 s"), std::string::npos) << half.message;
+    EXPECT_NE(text_of(half.notes).find("Interrupted at 2.50 s"), std::string::npos) << text_of(half.notes);
 
     last = 0;
     stop_after = 1.5; // in the second pass

@@ -238,7 +238,7 @@ TEST(FeSeam, StiffUndampedBodiesSlideAsTheChainWithinTheStepsError)
                 const double chain = chain_slide(scene, m).max_slip;
                 ASSERT_GT(chain, 2e-3);
                 const RunResult run = model.run(m);
-                ASSERT_EQ(run.status, Status::at_rest) << run.message;
+                ASSERT_EQ(run.status, Status::at_rest) << text_of(run.notes);
                 EXPECT_NEAR(run.max_slip, chain, run.slip_error + 1e-3 * chain);
                 EXPECT_LT(run.energy_error, 1e-9);
                 EXPECT_EQ(run.counts.unresolved, 0);
@@ -259,12 +259,12 @@ TEST(FeSeam, ElasticBodiesOnRadiatingRockCloseTheirEnergy)
     scene.time.substeps = 1;
     const GroundMotion motion = sines(2.0, 6.0);
     const RunResult run = run_of(scene, motion);
-    ASSERT_EQ(run.status, Status::at_rest) << run.message;
+    ASSERT_EQ(run.status, Status::at_rest) << text_of(run.notes);
     EXPECT_GT(run.max_slip, 1e-3);
     EXPECT_LT(run.energy_error, 1e-9);
     EXPECT_EQ(run.counts.unresolved, 0);
     ASSERT_EQ(run.stages.size(), 3u); // gravity, water, uplift
-    for (const StageResult& stage : run.stages) EXPECT_EQ(stage.status, StageStatus::ok) << stage.text();
+    for (const StageResult& stage : run.stages) EXPECT_EQ(stage.status, StageStatus::ok) << text_of(stage.notes());
 }
 
 TEST(FeSeam, TiedModelOfItIsThatOfTheUncutRock)

@@ -43,7 +43,7 @@ Scene with_pile(Scene scene, double distance, double depth)
 fe2d::SeepageResult solve(const Scene& scene, const fe2d::SeepageMeshOptions& options = {})
 {
     auto result = fe2d::solve_seepage(scene, scene_uplift_state(scene), options);
-    EXPECT_TRUE(result.field.solver.ok()) << result.field.solver.text();
+    EXPECT_TRUE(result.field.solver.ok()) << text_of(result.field.solver.note());
     return result;
 }
 
@@ -244,7 +244,7 @@ TEST(FeSeepage, default_box_scales_with_the_base)
     scene.reservoir = Reservoir{.level = 62.5};
     const auto single = solve(scene);
     ASSERT_FALSE(single.notes.empty());
-    EXPECT_NE(single.notes.back().find("300 m x 100 m"), std::string::npos);
+    EXPECT_NE(text_of(single.notes.back()).find("300 m x 100 m"), std::string::npos);
     Scene with_box = fe2d::test::reference_dam_on_rock();
     with_box.reservoir = Reservoir{.level = 62.5};
     EXPECT_NEAR(solve(with_box).uplift, single.uplift, 1e-9 * single.uplift);

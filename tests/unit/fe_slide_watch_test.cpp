@@ -247,7 +247,7 @@ TEST(SelfExcited, a_dam_on_a_rigid_base_that_walks_by_itself_is_named_and_its_ru
     const Scene scene = walking_dam();
     const EarthquakeRun model(scene, options_of(scene));
     const RunResult run = model.run(shaking());
-    ASSERT_EQ(run.status, Status::self_excited) << run.message;
+    ASSERT_EQ(run.status, Status::self_excited) << text_of(run.notes);
     EXPECT_LT(run.end_time, 5.0 + 6.0 * model.window()); // of 60 s
     const RunOutFigures& f = run.run_out;
     EXPECT_GT(f.sliding_factor, 1.0);
@@ -256,8 +256,8 @@ TEST(SelfExcited, a_dam_on_a_rigid_base_that_walks_by_itself_is_named_and_its_ru
     EXPECT_GT(f.slip_at_rest, 0.0);
     EXPECT_NEAR(f.slip_shaking + f.slip_at_rest, run.slip, 1e-12);
     EXPECT_LT(run.energy_error, 1e-9);
-    EXPECT_NE(run.message.find("slid at least"), std::string::npos) << run.message;
-    EXPECT_NE(run.message.find("give [foundation] so that the rock radiates"), std::string::npos) << run.message;
+    EXPECT_NE(text_of(run.notes).find("slid at least"), std::string::npos) << text_of(run.notes);
+    EXPECT_NE(text_of(run.notes).find("give [foundation] so that the rock radiates"), std::string::npos) << text_of(run.notes);
     EXPECT_FALSE(reported(run.status, run.slip).has_value());
     EXPECT_EQ(judge(run.status, run.slip, 0.0, 1e-3), damslip::Verdict::none);
     ASSERT_EQ(run.history.slide.rate.size(), run.history.time.size());
@@ -276,7 +276,7 @@ TEST(SelfExcited, the_same_dam_is_named_by_the_reduced_run)
     const RunOptions options = options_of(scene);
     const EarthquakeRun full(scene, options);
     const RunResult run = ReducedRun(full, scene, options).run(shaking());
-    ASSERT_EQ(run.status, Status::self_excited) << run.message;
+    ASSERT_EQ(run.status, Status::self_excited) << text_of(run.notes);
     EXPECT_GE(run.run_out.thrust_over_friction, 1.0);
     EXPECT_TRUE(std::isnan(run.run_out.energy_kept)); // no ledger
     EXPECT_TRUE(std::isnan(run.truncation_error));
@@ -300,7 +300,7 @@ TEST(SelfExcited, the_same_dam_is_named_by_explicit_steps)
     Scene scene = walking_dam();
     scene.time.scheme = TimeScheme::central_difference;
     const RunResult run = EarthquakeRun(scene, options_of(scene)).run(shaking());
-    EXPECT_EQ(run.status, Status::self_excited) << run.message;
+    EXPECT_EQ(run.status, Status::self_excited) << text_of(run.notes);
     EXPECT_GE(run.run_out.thrust_over_friction, 1.0);
     EXPECT_EQ(run.history.slide.rate.size(), run.history.time.size());
 }
@@ -311,7 +311,7 @@ TEST(SelfExcited, chosen_steps_stop_as_soon_as_two_agree)
     scene.time.substeps.reset();
     const EarthquakeRun model(scene, options_of(scene));
     const RunResult run = model.run(shaking());
-    EXPECT_EQ(run.status, Status::self_excited) << run.message;
+    EXPECT_EQ(run.status, Status::self_excited) << text_of(run.notes);
     EXPECT_LE(run.halvings, 2); // a slip that nothing has is not refined further
 }
 
@@ -319,7 +319,7 @@ TEST(SelfExcited, more_friction_lets_the_dam_die_slowly_and_it_rests)
 {
     const Scene scene = walking_dam(0.90);
     const RunResult run = EarthquakeRun(scene, options_of(scene)).run(shaking());
-    EXPECT_EQ(run.status, Status::at_rest) << run.message;
+    EXPECT_EQ(run.status, Status::at_rest) << text_of(run.notes);
     EXPECT_GT(run.slip, 1e-3);
 }
 
@@ -332,7 +332,7 @@ TEST(SelfExcited, a_dam_whose_residual_strength_does_not_hold_slides_to_the_end)
     scene.contact.residual_slip = 1e-3;
     scene.sliding.run_out_max = 4.0;
     const RunResult run = EarthquakeRun(scene, options_of(scene)).run(shaking());
-    EXPECT_EQ(run.status, Status::sliding_at_end) << run.message;
+    EXPECT_EQ(run.status, Status::sliding_at_end) << text_of(run.notes);
     EXPECT_GT(run.stages.back().sliding_factor, 1.0);
     EXPECT_LT(run.run_out.sliding_factor, 1.0);
     EXPECT_EQ(run.after.status, StageStatus::slides);
@@ -343,8 +343,8 @@ TEST(SelfExcited, a_run_out_too_short_to_tell_stays_sliding_at_end)
     Scene scene = walking_dam();
     scene.sliding.run_out_max = 2.0;
     const RunResult run = EarthquakeRun(scene, options_of(scene)).run(shaking());
-    EXPECT_EQ(run.status, Status::sliding_at_end) << run.message;
-    EXPECT_NE(run.message.find("lengthen sliding.run_out_max_s"), std::string::npos) << run.message;
+    EXPECT_EQ(run.status, Status::sliding_at_end) << text_of(run.notes);
+    EXPECT_NE(text_of(run.notes).find("lengthen sliding.run_out_max_s"), std::string::npos) << text_of(run.notes);
 }
 
 // ---- what the program says

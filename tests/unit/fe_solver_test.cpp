@@ -33,7 +33,7 @@ TEST(FeSolver, simplicial_and_supernodal_find_the_known_solution)
         900, 35, [](Eigen::Index i, Eigen::Index j) { return std::sin(1.0 + double(i) + 7.0 * double(j)); });
     for (const Factorisation kind : {Factorisation::simplicial, Factorisation::supernodal}) {
         LinearSolver solver({.factorisation = kind});
-        ASSERT_TRUE(solver.factorise(a).ok()) << solver.report().text();
+        ASSERT_TRUE(solver.factorise(a).ok()) << text_of(solver.report().note());
         EXPECT_EQ(solver.report().supernodal, kind == Factorisation::supernodal);
         const Eigen::MatrixXd b = a * x; // 35 columns: two full blocks of 16 and a rest
         EXPECT_LT((solver.solve(b) - x).lpNorm<Eigen::Infinity>(), 1e-12); // condition about 400
@@ -45,9 +45,9 @@ TEST(FeSolver, simplicial_and_supernodal_find_the_known_solution)
 TEST(FeSolver, says_what_it_did)
 {
     LinearSolver solver;
-    EXPECT_EQ(solver.report().text(), "Nothing has been factorised yet.");
+    EXPECT_EQ(text_of(solver.report().note()), "Nothing has been factorised yet.");
     solver.factorise(laplacian(10));
-    EXPECT_EQ(solver.report().text().find("Factorised: 100 unknowns, "), 0u) << solver.report().text();
+    EXPECT_EQ(text_of(solver.report().note()).find("Factorised: 100 unknowns, "), 0u) << text_of(solver.report().note());
     LinearSolver moved = std::move(solver); // keeps its factor
     const auto a = laplacian(10);
     const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(100, -1.0, 1.0);
@@ -57,8 +57,8 @@ TEST(FeSolver, says_what_it_did)
     mechanism.insert(0, 1) = mechanism.insert(1, 0) = -1.0;
     moved = LinearSolver();
     moved.factorise(mechanism);
-    EXPECT_NE(moved.report().text().find("2 unknowns"), std::string::npos) << moved.report().text();
-    EXPECT_EQ(moved.report().text().find("Factorised"), std::string::npos);
+    EXPECT_NE(text_of(moved.report().note()).find("2 unknowns"), std::string::npos) << text_of(moved.report().note());
+    EXPECT_EQ(text_of(moved.report().note()).find("Factorised"), std::string::npos);
 }
 
 TEST(FeSolver, counts_what_it_does)
@@ -90,7 +90,7 @@ TEST(FeSolver, a_mechanism_is_reported_not_solved)
         LinearSolver solver({.factorisation = kind});
         const SolverStatus status = solver.factorise(a).status;
         EXPECT_TRUE(status == SolverStatus::singular || status == SolverStatus::not_positive_definite)
-            << solver.report().text();
+            << text_of(solver.report().note());
     }
     a.coeffRef(0, 0) = -4.0;
     LinearSolver solver;
@@ -109,7 +109,7 @@ TEST(FeSolver, quasi_definite_with_badly_scaled_blocks)
     for (int i = 0; i < 10; ++i) full(i, n + i) = full(n + i, i) = 0.7;
     const Eigen::SparseMatrix<double> a = full.sparseView();
     LinearSolver solver({.definiteness = Definiteness::quasi_definite});
-    ASSERT_TRUE(solver.factorise(a).ok()) << solver.report().text();
+    ASSERT_TRUE(solver.factorise(a).ok()) << text_of(solver.report().note());
     EXPECT_EQ(solver.report().negative_pivots, n);
     EXPECT_LT(solver.report().residual, 1e-13);
     LinearSolver wrong;

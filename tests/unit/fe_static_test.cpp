@@ -123,7 +123,7 @@ TEST(FeStatic, base_forces_balance_the_loads)
         if (rigid) scene.foundation.reset(), scene.curtain.reset();
         const Model model = build_model(scene);
         const StaticSolution solution = solve_static(scene, model, static_loads(scene, model));
-        ASSERT_TRUE(solution.solver.ok()) << solution.solver.text();
+        ASSERT_TRUE(solution.solver.ok()) << text_of(solution.solver.note());
         const DofMap all = all_dofs(model.mesh, 2);
         const Region dam[] = {Region::dam};
         const Eigen::VectorXd load =

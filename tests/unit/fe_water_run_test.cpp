@@ -39,7 +39,7 @@ TEST(FeWaterRun, DamThatSticksIsTheTiedDam)
         const EarthquakeRun run(scene, options);
         const GroundMotion motion = sines(0.05, 4.0);
         const RunResult contact = run.run(motion);
-        ASSERT_EQ(contact.status, Status::at_rest) << contact.message;
+        ASSERT_EQ(contact.status, Status::at_rest) << text_of(contact.notes);
         ASSERT_EQ(contact.max_slip, 0.0);
 
         const Model tied = build_model(scene);
@@ -74,7 +74,7 @@ TEST(FeWaterRun, EnergyOfASlidingDamCloses)
         RunOptions options = options_of(scene);
         scene.time.substeps = 0;
         const RunResult result = EarthquakeRun(scene, options).run(sines(1.0, 8.0));
-        ASSERT_EQ(result.status, Status::at_rest) << result.message;
+        ASSERT_EQ(result.status, Status::at_rest) << text_of(result.notes);
         EXPECT_GT(result.slip, 0.01);
         EXPECT_LT(result.energy_error, 1e-10);
         EXPECT_EQ(result.counts.unresolved, 0);

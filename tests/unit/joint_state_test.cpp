@@ -108,7 +108,7 @@ TEST_P(JointState, FileKeepsEveryBit)
 {
     const Scene scene = dam_with(GetParam());
     const fe2d::RunResult run = run_of(scene, record_of(2.5, 5));
-    ASSERT_EQ(run.status, Status::at_rest) << run.message;
+    ASSERT_EQ(run.status, Status::at_rest) << text_of(run.notes);
     const fe2d::RunState read = through_a_file(scene, run.state);
     expect_same_bits(read, run.state);
     EXPECT_EQ(run_of(scene, record_of(2.0, 6), &read).slip, run_of(scene, record_of(2.0, 6), &run.state).slip);
@@ -122,7 +122,7 @@ TEST_P(JointState, SequenceWithRestsIsSaveLoadGoOn)
     scene.uplift->water.after = WaterAfter::full;
     const GroundMotion first = record_of(2.5, 5), second = record_of(2.0, 6);
     const fe2d::RunResult both = run_of(scene, records::one_after_the_other({first, second}, 1.0));
-    ASSERT_EQ(both.status, Status::at_rest) << both.message;
+    ASSERT_EQ(both.status, Status::at_rest) << text_of(both.notes);
     ASSERT_EQ(both.events.size(), 2u);
     ASSERT_EQ(both.between.size(), 1u);
 
@@ -157,7 +157,7 @@ TEST(JointStates, WhatIsBrokenStaysSo)
 {
     const Scene anchored = dam_with(Law::anchors);
     const fe2d::RunResult first = run_of(anchored, record_of(4.0, 5));
-    ASSERT_EQ(first.status, Status::at_rest) << first.message;
+    ASSERT_EQ(first.status, Status::at_rest) << text_of(first.notes);
     ASSERT_TRUE(first.anchors.front().history.snapped_at);
     const fe2d::RunResult next = run_of(anchored, record_of(2.0, 6), &first.state);
     EXPECT_EQ(next.anchors.front().history.snapped_at, first.anchors.front().history.snapped_at);
@@ -165,7 +165,7 @@ TEST(JointStates, WhatIsBrokenStaysSo)
 
     const Scene bonded = dam_with(Law::bond);
     const fe2d::RunResult broken = run_of(bonded, record_of(4.0, 5));
-    ASSERT_EQ(broken.status, Status::at_rest) << broken.message;
+    ASSERT_EQ(broken.status, Status::at_rest) << text_of(broken.notes);
     EXPECT_GT(run_of(bonded, record_of(2.0, 6), &broken.state).slip, run_of(bonded, record_of(2.0, 6)).slip);
 }
 
@@ -182,9 +182,9 @@ TEST(JointStates, WaterBetweenRecordsMayTakeTheDam)
     EXPECT_EQ(run.events_left, 1u);
     ASSERT_EQ(run.events.size(), 1u); // the record before it has its slip
     EXPECT_EQ(run.events.front().status, Status::at_rest);
-    EXPECT_EQ(run.message.rfind("before \"record 6\", full head on ", 0), 0u) << run.message;
-    EXPECT_NE(run.message.find("the dam slides without any earthquake"), std::string::npos) << run.message;
-    EXPECT_NE(run.message.find("1 record of the sequence was not run."), std::string::npos) << run.message;
+    EXPECT_EQ(text_of(run.notes).rfind("before \"record 6\", full head on ", 0), 0u) << text_of(run.notes);
+    EXPECT_NE(text_of(run.notes).find("the dam slides without any earthquake"), std::string::npos) << text_of(run.notes);
+    EXPECT_NE(text_of(run.notes).find("1 record of the sequence was not run."), std::string::npos) << text_of(run.notes);
 }
 
 TEST(JointStates, NumbersOfLawsAreChecked)
@@ -246,7 +246,7 @@ TEST(StaticJump, ADamWhoseBondBreaksComesToRestOnItsBars)
     ASSERT_FALSE(run.stages.empty());
     const auto jumped = std::find_if(run.stages.begin(), run.stages.end(),
                                      [](const fe2d::StageResult& s) { return s.bond && s.bond->jumps > 0; });
-    ASSERT_NE(jumped, run.stages.end()) << run.stages.back().text();
+    ASSERT_NE(jumped, run.stages.end()) << text_of(run.stages.back().notes());
     EXPECT_EQ(jumped->status, fe2d::StageStatus::ok);
     EXPECT_EQ(jumped->bond->largest, 1.0); // the whole load has been found in equilibrium, after the jump
     EXPECT_GT(jumped->bond->events, 0);

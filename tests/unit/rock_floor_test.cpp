@@ -203,7 +203,7 @@ TEST(RockFloor, BedOfDashpotsIsTheReflectionCoefficient)
             return integrate(model, motion, run);
         };
         const History a = on(absorbing, spring), b = on(coupled, bed);
-        ASSERT_EQ(a.rows.size(), b.rows.size()) << b.status_text;
+        ASSERT_EQ(a.rows.size(), b.rows.size()) << text_of(b.ending);
         double crest = 0.0;
         for (std::size_t k = 0; k < a.rows.size(); ++k)
             crest = std::max(crest, std::abs(a.rows[k].crest_x - b.rows[k].crest_x));
@@ -229,7 +229,7 @@ TEST(RockFloor, DamThatSticksIsTheTiedDam)
     const EarthquakeRun run(scene, options);
     const GroundMotion motion = sines(0.05, 4.0);
     const RunResult contact = run.run(motion);
-    ASSERT_EQ(contact.status, Status::at_rest) << contact.message;
+    ASSERT_EQ(contact.status, Status::at_rest) << text_of(contact.notes);
     ASSERT_EQ(contact.max_slip, 0.0);
 
     const Model tied = build_model(scene);
@@ -270,7 +270,7 @@ TEST(RockFloor, EnergyOfASlidingDamCloses)
         scene.reservoir->far_end = end;
         scene.time.substeps = 0;
         const RunResult result = slide(scene, sines(1.0, 8.0));
-        ASSERT_EQ(result.status, Status::at_rest) << result.message;
+        ASSERT_EQ(result.status, Status::at_rest) << text_of(result.notes);
         EXPECT_GT(result.slip, 0.01);
         EXPECT_LT(result.energy_error, 1e-10);
         EXPECT_EQ(result.counts.unresolved, 0);

@@ -24,7 +24,7 @@ std::vector<Eigen::VectorXd> states_of(const Ready& ready, const Watch& watch)
         const fe2d::SplitLoad load = structure.split(run.stages().loads[s]);
         const fe2d::StageResult stage =
             fe2d::solve_stage(statics, structure, run.stages().names[s], load, strength, memory);
-        EXPECT_EQ(stage.status, fe2d::StageStatus::ok) << stage.text();
+        EXPECT_EQ(stage.status, fe2d::StageStatus::ok) << text_of(stage.notes());
         const fe2d::StaticState state = statics.displacements(load, memory);
         const Eigen::VectorXd all =
             fe2d::nodal_values(model.dofs, structure.assemble(state.dam, state.rock, run.stages().loads[s]));

@@ -165,7 +165,7 @@ std::vector<SecondResult> crest_beside(const Ready& ready, const std::vector<Cre
     const fe2d::History& ours = all.front().history;
     if (ours.status != fe2d::TiedRunStatus::complete)
         throw NotConverged(
-            Diagnostic{ready.scene.file.string(), 0, 0, ours.status_text, "a complete run", "see its status"});
+            Diagnostic{ready.scene.file.string(), 0, 0, text_of(ours.ending), "a complete run", "see its status"});
     const double start = ours.rows.front().crest_x;
     double largest = 0.0, apart = 0.0, their_peak = 0.0;
     std::size_t next = 0;
@@ -266,7 +266,7 @@ std::vector<SecondResult> stages_beside(const Ready& ready, const CalculixOutput
     const Eigen::Index m = plane.pairs();
     for (const fe2d::StageResult& stage : run.statics(statics, strength, memory))
         if (stage.status != fe2d::StageStatus::ok)
-            throw NotConverged(Diagnostic{ready.scene.file.string(), 0, 0, stage.text(),
+            throw NotConverged(Diagnostic{ready.scene.file.string(), 0, 0, text_of(stage.notes()),
                                           "a dam that stands under its loads",
                                           "raise contact.friction or lower the water"});
     const Eigen::VectorXd force = base_forces(run, stages.last(), theirs.back());

@@ -160,7 +160,7 @@ MotionOutcome outcome(const fe2d::RunResult& r, double run_out)
     MotionOutcome o;
     o.status = r.status;
     if (r.status != Status::at_rest && r.status != Status::sliding_at_end) {
-        o.message = r.message;
+        o.message = text_of(r.notes);
         return o;
     }
     o.still_sliding = r.status == Status::sliding_at_end && run_out > 0.0;
@@ -266,7 +266,7 @@ std::string sentence(const sliding::SlideResult& r, const RigidModel& model)
 {
     if (fails_statically(r.status)) return model.why_it_fails();
     if (reported(r.status, r.slip) || r.notes.empty()) return "";
-    return r.status == Status::runs_away || r.status == Status::rocks_first ? r.notes.back() : r.notes.front();
+    return r.status == Status::runs_away || r.status == Status::rocks_first ? text_of(r.notes.back()) : text_of(r.notes.front());
 }
 
 MotionOutcome outcome(const sliding::SlideResult& r, const RigidModel& model)

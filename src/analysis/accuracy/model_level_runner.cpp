@@ -67,7 +67,7 @@ bool take(const fe2d::RunResult& run, ModelLevelResult& result)
     result.status = run.status;
     if (run.status == Status::interrupted) result.outcome = ModelLevelOutcome::stopped;
     if (run.status != Status::at_rest) {
-        result.remark = run.message;
+        result.remark = text_of(run.notes);
         return false;
     }
     result.slip.push_back(run.slip);
@@ -204,8 +204,8 @@ void ModelLevelRunner::run_rigid(const Scene& given, ModelLevelResult& result) c
             result.status = r.status;
             if (r.status != Status::at_rest) {
                 result.remark = r.notes.empty()                   ? std::string(status_row(r.status).meaning)
-                                : r.status == Status::rocks_first ? r.notes.back()
-                                                                  : r.notes.front();
+                                : r.status == Status::rocks_first ? text_of(r.notes.back())
+                                                                  : text_of(r.notes.front());
                 return;
             }
             result.slip.push_back(r.slip);

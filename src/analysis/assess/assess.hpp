@@ -116,7 +116,6 @@ struct Assessment {
     std::vector<Disagreement> disagreements;
     std::optional<Recommendation> recommended;
     Verdict slip_verdict = Verdict::none;
-    std::string failed_checks;       ///< of the load combinations: sliding::failed_checks()
     Verdict verdict = Verdict::none; ///< of the slip, FAIL where a check or a lift or seam fails
     std::string verdict_reason;      ///< of the slip's
 };

@@ -285,9 +285,11 @@ void judge_assessment(Assessment& a)
     }
     judge_slip(a);
     a.slip_verdict = a.verdict;
-    a.failed_checks = sliding::failed_checks(a.screening.combinations);
     const Verdict of_planes = judge(a.screening.planes, a.ready.scene);
-    if (!a.failed_checks.empty() || of_planes == Verdict::fail) a.verdict = Verdict::fail;
+    const bool check_fails = std::ranges::any_of(a.screening.combinations, [](const sliding::Equilibrium& e) {
+        return std::ranges::any_of(e.checks, [](const sliding::Check& c) { return c.verdict == sliding::Verdict::fail; });
+    });
+    if (check_fails || of_planes == Verdict::fail) a.verdict = Verdict::fail;
     if (of_planes == Verdict::undecided && a.verdict == Verdict::pass) a.verdict = Verdict::undecided;
 }
 

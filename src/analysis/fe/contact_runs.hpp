@@ -77,7 +77,7 @@ public:
     const fe2d::EarthquakeRun& model() const { return *model_; }
     /// Why no run has an answer, a sentence; empty: there is a model.
     bool reduced() const { return reduced_.has_value(); } ///< on few modes of the dam
-    const std::string& why_not() const { return reduced_ ? reduced_->why_not() : model_->why_not(); }
+    const std::vector<Note>& why_not() const { return reduced_ ? reduced_->why_not() : model_->why_not(); }
     const RigidModel& rigid() const { return rigid_; }
     const PressureProfile& uplift() const
     {

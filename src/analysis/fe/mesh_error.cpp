@@ -95,7 +95,7 @@ MeshError CoarserMesh::error_of(const fe2d::EarthquakeRun& model, const fe2d::Ru
         few_modes ? reduced_->run(motion, {}, run.halvings, fe2d::TruncationEstimate::left_out)
                   : full_->run_at(motion, model.steps_of(run));
     if (coarse.status != Status::at_rest || coarse.lifts.size() != run.lifts.size()) {
-        no_answer(coarse.status, coarse.message, result);
+        no_answer(coarse.status, text_of(coarse.notes), result);
         return result;
     }
     result.check = MeshCheck::done;

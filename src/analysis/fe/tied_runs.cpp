@@ -83,7 +83,7 @@ TiedRuns::TiedRuns(const Ready& ready, const FeOptions& options, Watch& watch)
         radiating_ = fe2d::radiating_rock_of(scene, model().mesh, model().mesh.contact.rock_nodes,
                                              ready.wave_frequency(), cache_folder());
     if (radiating_ && !radiating_->rock.report.passed())
-        throw NotConverged(Diagnostic{scene.file.string(), 0, 0, radiating_->rock.report.missed_gate(),
+        throw NotConverged(Diagnostic{scene.file.string(), 0, 0, text_of(radiating_->rock.report.missed_gate()),
                                       "a run on rock that is right", "or write  mass = \"massless\""});
     fe2d::StaticLoads loads = fe2d::static_loads(scene, model());
     if (scene.stages.pore_pressure != PorePressure::none)
@@ -91,7 +91,7 @@ TiedRuns::TiedRuns(const Ready& ready, const FeOptions& options, Watch& watch)
     statics_ = fe2d::solve_static(scene, model(), loads);
     if (!statics_.solver.ok())
         throw NotConverged(Diagnostic{scene.file.string(), 0, 0,
-                                      "the static stages could not be solved: " + statics_.solver.text(),
+                                      "the static stages could not be solved: " + text_of(statics_.solver.note()),
                                       "a model held by its foundation", "check [foundation] and the materials"});
     const int unknowns = model().dofs.count;
     start_ =
@@ -152,7 +152,7 @@ TiedRun TiedRuns::run(const GroundMotion& motion) const
     if (!chosen.reason.empty()) run.notes.push_back(chosen.reason);
     if (models_.on_free_edges && run.history.displacement.size() > 0)
         run.history.displacement = fe2d::without_edges(models_.still, *models_.on_free_edges, run.history.displacement);
-    run.notes.insert(run.notes.end(), run.history.notes.begin(), run.history.notes.end());
+    for (const Note& note : run.history.notes) run.notes.push_back(text_of(note));
     return run;
 }
 

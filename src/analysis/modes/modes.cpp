@@ -70,7 +70,7 @@ void find_transfer(const Ready& ready, std::vector<double> frequencies, ModesRes
         m.radiating =
             fe2d::radiating_rock_of(m.scene, mesh, mesh.contact.rock_nodes, ready.wave_frequency(), cache_folder());
         if (!m.radiating->rock.report.passed())
-            throw NotConverged(Diagnostic{m.scene.file.string(), 0, 0, m.radiating->rock.report.missed_gate(),
+            throw NotConverged(Diagnostic{m.scene.file.string(), 0, 0, text_of(m.radiating->rock.report.missed_gate()),
                                           "transfer functions on rock that is right", "or run without --frf"});
         const fe2d::RockBelow rock{m.radiating->rock, damping.stiffness};
         m.transfer =

@@ -94,10 +94,8 @@ sliding::FlexibleSlide slide_model(const Scene& scene, const sliding::FlexibleBl
                                        : sliding::slide_decoupled(motion, model.stages, mode, options);
     if (column && !column->settled) {
         found.slide.status = Status::not_resolved;
-        found.slide.notes.push_back(
-            fmt::format("the strain of the column does not settle: V_s {:.4g} m/s, strain {:.3g} % after "
-                        "{} iterations",
-                        column->velocity, 100.0 * column->strain, column->iterations));
+        found.slide.notes.push_back({NoteKind::strain_not_settled,
+                                     {column->velocity, 100.0 * column->strain, std::int64_t{column->iterations}}});
         return found;
     }
     double strongest = found.peak_acceleration;
@@ -119,7 +117,7 @@ std::string resolve_flexible_modes(Scene& scene)
     const fe2d::NaturalModes modes = fe2d::natural_modes(fe2d::build_model(tied, options), 5);
     if (modes.frequency.size() == 0)
         throw NotConverged(Diagnostic{scene.file.string(), 0, 0,
-                                      "flexible_block.period_s = \"modes\": no mode was found: " + modes.solver.text(),
+                                      "flexible_block.period_s = \"modes\": no mode was found: " + text_of(modes.solver.note()),
                                       "a model whose modes the solver finds", "give the period as a number"});
     Eigen::Index best = 0;
     for (Eigen::Index i = 1; i < modes.frequency.size(); ++i)

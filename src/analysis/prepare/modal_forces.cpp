@@ -20,7 +20,7 @@ namespace {
 Eigen::VectorXd static_water(const Scene& scene, const fe2d::CoupledPencil& pencil, const Eigen::VectorXd& flux)
 {
     fe2d::LinearSolver solver;
-    if (!solver.factorise(pencil.water_stiffness).ok()) refuse_modes(scene, "the water: " + solver.report().text());
+    if (!solver.factorise(pencil.water_stiffness).ok()) refuse_modes(scene, "the water: " + text_of(solver.report().note()));
     return pencil.coupling * solver.solve(flux);
 }
 

@@ -115,7 +115,7 @@ PressureProfile SeepageSource::solve(const Scene& scene, const UpliftState& stat
     const fe2d::SeepageResult result = fe2d::solve_seepage(scene, state);
     if (!result.field.solver.ok())
         throw NotConverged(Diagnostic{scene.file.string(), 0, 0,
-                                      "the seepage below the dam could not be solved: " + result.field.solver.text(),
+                                      "the seepage below the dam could not be solved: " + text_of(result.field.solver.note()),
                                       "permeabilities within some ten orders of magnitude of each other",
                                       "check foundation.permeability_m_s and curtain.permeability_m_s"});
     return result.profile;

@@ -137,19 +137,11 @@ void check_length(const RigidModel& model, sliding::SlideResult& result)
     }
     result.status = Status::runs_away;
     const std::string event = judge_events(result.status, *model.length, result.events);
-    result.notes.push_back(fmt::format("{} slides further than the {:.4g} m it slides on: no slip is given.",
-                                       event.empty() ? "It" : "In \"" + event + "\" it", *model.length));
+    result.notes.push_back(event.empty() ? Note{NoteKind::beyond_its_plane, {*model.length}}
+                                         : Note{NoteKind::beyond_its_plane_in, {event, *model.length}});
 }
 
 namespace {
-
-/// "tips at 0.305 g, before it would slide at 0.869 g"
-std::string tipping_words(double tips, double yield)
-{
-    const auto in_g = [](double a) { return fmt::format("{:.3g} g", a / units::standard_gravity); };
-    return "tips at " + in_g(tips) +
-           (std::isfinite(yield) ? ", before it would slide at " + in_g(yield) : ", and would not slide");
-}
 
 bool reaches(double tips, double yield, double peak)
 {
@@ -165,8 +157,10 @@ void check_tipping(const RigidModel& model, double peak, sliding::SlideResult& r
     if (!reaches(model.tips, yield, peak)) return;
     result.status = Status::rocks_first;
     judge_events(result.status, 0.0, result.events);
-    result.notes.push_back("It " + tipping_words(model.tips, yield) +
-                           ": the sliding block does not hold; take the block that rocks and slides.");
+    const double tips = model.tips / units::standard_gravity;
+    result.notes.push_back(std::isfinite(yield)
+                               ? Note{NoteKind::tips_before_sliding, {tips, yield / units::standard_gravity}}
+                               : Note{NoteKind::tips_only, {tips}});
 }
 
 sliding::RockingResult rock_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,

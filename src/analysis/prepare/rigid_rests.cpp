@@ -70,13 +70,12 @@ public:
         if (scene_.drains && scene_.drains->lost_at_slip)
             later = sliding::base_state(scene_, without_drains(now), options_.seepage);
         RigidStages on_base = rigid_stages(scene_, now, state, later ? &*later : nullptr, options_);
-        const std::string note =
-            fmt::format("full head on the {:.3g} m that have cracked{}, uplift {:.4g} MN/m in the place of {:.4g}.",
-                        state.base.crack.length, heel >= toe ? "" : " from the toe", state.base.uplift.force / 1e6,
-                        before_.base.uplift.force / 1e6);
+        Note note{NoteKind::rest_after,
+                  {state.base.crack.length, std::string(heel >= toe ? "heel" : "toe"), state.base.uplift.force / 1e6,
+                   before_.base.uplift.force / 1e6}};
         auto next =
             std::make_shared<const FullHeadBetween>(scene_, now, state, on_base.opening_stages.front().block, options_);
-        return {std::move(on_base.opening_stages), note, std::move(next)};
+        return {std::move(on_base.opening_stages), std::move(note), std::move(next)};
     }
 
 private:

@@ -28,7 +28,7 @@ ElasticScreening screen_elastic(const Ready& ready, int jobs, Watch& watch)
         const Ready elastic =
             prepare(std::move(given), Method::finite_elements, ready.pairs, {.seepage = ready.seepage, .stop = watch.stop()});
         ContactRuns all(elastic, {.mesh_error = false, .reduced = true, .jobs = jobs}, watch);
-        out.why_not = all.why_not();
+        out.why_not = text_of(all.why_not());
         if (!out.why_not.empty()) return out;
         out.runs = all.run([](ContactRun& run, const GroundMotion&) { run.fe.history = {}; });
         if (out.runs.size() < all.whole())

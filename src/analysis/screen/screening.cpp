@@ -224,8 +224,8 @@ void add_flexible_warnings(const SlipRow& row, std::vector<std::string>& warning
     for (const auto& [name, result] : {std::pair("decoupled", &decoupled), std::pair("coupled", &coupled)}) {
         if (!*result || (*result)->slide.status == Status::at_rest || fails_statically((*result)->slide.status))
             continue;
-        for (const std::string& note : (*result)->slide.notes)
-            warnings.push_back(fmt::format("{}, polarity {:+d}, {}: {}", row.record, row.polarity, name, note));
+        for (const Note& note : (*result)->slide.notes)
+            warnings.push_back(fmt::format("{}, polarity {:+d}, {}: {}", row.record, row.polarity, name, text_of(note)));
     }
     if (row.rigid().lift_offs > 0 && !decoupled)
         warnings.push_back(
@@ -279,21 +279,24 @@ void add_warnings(const Scene& scene, const Screening& s, std::vector<std::strin
         for (const auto* r : {&row.horizontal, row.with_vertical ? &*row.with_vertical : nullptr,
                               row.rocking ? &row.rocking->slide : nullptr}) {
             if (!r) continue;
-            for (const std::string& note : r->notes) // of the water between two records, and of water on its way
-                if (note.starts_with("After \"") || note.starts_with("Water "))
-                    warnings.push_back(fmt::format("{}, polarity {:+d}: {}", row.record, row.polarity, note));
+            for (const Note& note : r->notes) // of the water between two records, and of water on its way
+                if (note.kind == NoteKind::rest_after || note.kind == NoteKind::rest_falls ||
+                    note.kind == NoteKind::crack_water_late)
+                    warnings.push_back(fmt::format("{}, polarity {:+d}: {}", row.record, row.polarity, text_of(note)));
             if (r->status == Status::overturned)
                 warnings.push_back(
-                    fmt::format("{}, polarity {:+d}: overturned. {}", row.record, row.polarity, r->notes.front()));
+                    fmt::format("{}, polarity {:+d}: overturned. {}", row.record, row.polarity,
+                                text_of(r->notes.front())));
             if (r->status == Status::sliding_at_end)
                 warnings.push_back(fmt::format(
                     "{}, polarity {:+d}: still sliding after a run-out of {:.3g} s; the slip is a lower bound.",
                     row.record, row.polarity, scene.sliding.run_out_max));
             if (r->status == Status::not_resolved)
-                for (const std::string& note : r->notes) warnings.push_back(row.record + ": " + note);
+                for (const Note& note : r->notes) warnings.push_back(row.record + ": " + text_of(note));
             if (r->status == Status::runs_away)
                 warnings.push_back(
-                    fmt::format("{}, polarity {:+d}: runs away. {}", row.record, row.polarity, r->notes.back()));
+                    fmt::format("{}, polarity {:+d}: runs away. {}", row.record, row.polarity,
+                                text_of(r->notes.back())));
         }
 }
 

@@ -229,7 +229,7 @@ Headline assess_headline(const Assessment& a)
                                 : a.slip_verdict != Verdict::none    ? word(a.slip_verdict)
                                 : a.recommended                      ? "No criterion."
                                                                      : "No answer.";
-    return with_failed_checks(with_planes({sentence, outcome, verdict}, a.screening.planes, a.ready.scene), a.failed_checks);
+    return with_failed_checks(with_planes({sentence, outcome, verdict}, a.screening.planes, a.ready.scene), failed_checks(a.screening.combinations));
 }
 
 Page assess_page(const Assessment& a, const Scene& given, const WorkPlan& plan)
@@ -304,7 +304,7 @@ Answer assess_answer(const Assessment& a, const Scene& given)
         all.point(title, sentences.front());
     }
     all.set("answers", said);
-    all.add("limit_equilibrium", sliding::equilibrium_table(a.screening.combinations), {.text = false});
+    all.add("limit_equilibrium", equilibrium_table(a.screening.combinations), {.text = false});
     all += "Not considered, for the scene does not name it\n";
     for (const std::string& s : not_named(a)) all += "  " + s + "\n";
     all += "\nOff by a choice of scene or method\n";
@@ -395,7 +395,7 @@ std::vector<std::string> governing_sentences(const Assessment& a)
             : !all_answered(a.runs)
                 ? "The finite elements decide, and not every run has an answer: " + unanswered_words(a.runs) + "."
                 : fmt::format("The finite elements decide: {}. {}", word(governing_run(a).fe.status),
-                              governing_run(a).fe.message));
+                              text_of(governing_run(a).fe.notes)));
         return list;
     }
     const Recommendation& r = *a.recommended;
@@ -471,9 +471,9 @@ std::vector<std::string> after_sentences(const Assessment& a)
             list.push_back(fmt::format("Finite elements, after {}: sliding factor {:.3g}, {:.3g} m of the base open.",
                                        governing_run(a).label(), after.sliding_factor, after.open_length));
         if (falls_after(governing_run(a)))
-            list.push_back("After the earthquake the dam does not stand: " + after.text());
+            list.push_back("After the earthquake the dam does not stand: " + text_of(after.notes()));
         if (open_after(governing_run(a)))
-            list.push_back("For the state after the earthquake the solver found no answer: " + after.text());
+            list.push_back("For the state after the earthquake the solver found no answer: " + text_of(after.notes()));
     }
     return list;
 }

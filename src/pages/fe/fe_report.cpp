@@ -109,7 +109,7 @@ std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& run
 {
     const ContactRun& worst = worst_of(runs);
     const std::optional<double> most = reported(worst.fe.status, worst.fe.max_slip);
-    if (!most) return worst.label() + ": " + worst.fe.message;
+    if (!most) return worst.label() + ": " + text_of(worst.fe.notes);
     const double slip = std::abs(*most);
     const std::string over = number_of(runs), unanswered = unanswered_words(runs);
     if (status_row(worst.fe.status).slip == SlipMeaning::lower_bound) // no error holds for what has not ended
@@ -145,12 +145,12 @@ std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& run
 std::string failed_words(const Scene& scene, const std::vector<ContactRun>& runs,
                          const std::vector<sliding::Equilibrium>& combinations)
 {
-    std::string words = sliding::failed_checks(combinations);
+    std::string words = failed_checks(combinations);
     const Combination after = sliding::after_earthquake(scene);
     const std::optional<double> required = sliding::requirements(scene, after).sliding;
     if (const double factor = factor_after(runs); required && factor < *required)
         words += fmt::format("{}{} by finite elements {}", words.empty() ? "" : "; ", after.name,
-                             sliding::unmet_words(factor, *required));
+                             unmet_words(factor, *required));
     return words;
 }
 
@@ -162,8 +162,8 @@ std::string remarks(const std::vector<ContactRun>& runs)
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const ContactRun &r = runs[i],
                          *before = i == 0 ? nullptr : &runs[i - 1]; // polarities have their stages in common
-        if (falls_after(r)) out += " After the earthquake it does not stand: " + r.fe.after.text();
-        if (open_after(r)) out += " The state after the earthquake is not resolved: " + r.fe.after.text();
+        if (falls_after(r)) out += " After the earthquake it does not stand: " + text_of(r.fe.after.notes());
+        if (open_after(r)) out += " The state after the earthquake is not resolved: " + text_of(r.fe.after.notes());
         const bool worst = &r == &worst_of(runs) && !reported(r.fe.status, r.fe.max_slip);
         const bool said = before && before->fe.status == r.fe.status && sentences[i - 1] == sentences[i];
         if (r.fe.status != Status::at_rest && !worst && !said) out += " " + r.label() + ": " + sentences[i];
@@ -180,7 +180,7 @@ std::vector<std::string> after_earthquake(const std::vector<ContactRun>& runs)
 {
     std::vector<std::string> list;
     for (const ContactRun& r : runs)
-        if (falls_after(r) || open_after(r)) list.push_back(r.label() + ": " + r.fe.after.text());
+        if (falls_after(r) || open_after(r)) list.push_back(r.label() + ": " + text_of(r.fe.after.notes()));
     return list;
 }
 
@@ -225,7 +225,7 @@ Headline slip_headline(const Scene& scene, const std::vector<ContactRun>& runs)
 {
     if (runs.empty()) return {"No earthquake was run.", Outcome::none, "No answer."};
     if (const ContactRun* r = find(runs, [](const ContactRun& run) { return fails_statically(run.fe.status); }))
-        return {"The dam has no equilibrium without any earthquake. " + r->fe.message, Outcome::fail, "FAIL"};
+        return {"The dam has no equilibrium without any earthquake. " + text_of(r->fe.notes), Outcome::fail, "FAIL"};
     const std::optional<double>& allowable = scene.criteria.allowable_slip;
     const std::string cracks = crack_sentence(runs), sentence = slip_sentence(scene, runs) + remarks(runs) + cracks;
     const Verdict verdict = verdict_of(runs, allowable);
@@ -257,7 +257,7 @@ void FeReport::add(const ContactRun& run, const GroundMotion& motion)
     if (motions_.empty() || motions_.back().name != motion.name) motions_.push_back(motion); // once for both polarities
     const std::size_t number = sections_.size() + 1;
     Section section{"Record " + run.label(), {}, Fold::open};
-    if (!run.fe.message.empty()) section.parts.push_back(Paragraph{run.fe.message});
+    if (!run.fe.notes.empty()) section.parts.push_back(Paragraph{text_of(run.fe.notes)});
     const bool of_pairs = run.fe.history.by_pair.pairs > 0;
     if (run.fe.history.time.size() < 2 || (!of_pairs && run.fe.modes == 0)) {
         sections_.push_back(std::move(section));
@@ -403,8 +403,18 @@ std::vector<std::string> run_sentences(const std::vector<ContactRun>& runs)
     for (const ContactRun& r : runs)
         sentences.push_back(by_itself(r) && &r != in_headline
                                 ? fmt::format("Self-excited, too: slid at least {:.4g} mm.", 1e3 * std::abs(r.fe.slip))
-                                : r.fe.message);
+                                : text_of(r.fe.notes));
     return sentences;
+}
+
+/// Of a run that came to rest but moved on after the record.
+std::string walked_sentence(double slip, const fe2d::RunOutFigures& f)
+{
+    const std::vector<Note> lift_offs = fe2d::lift_off_notes(f);
+    return fmt::format("{:.3g} mm of the slip of {:.4g} mm came after the record, with the ground at rest: it may be "
+                       "the model that goes on sliding (docs/fe-contact.md, A dam that goes on sliding).{}{}",
+                       1e3 * std::abs(f.slip_at_rest), 1e3 * std::abs(slip), lift_offs.empty() ? "" : " ",
+                       text_of(lift_offs));
 }
 
 void add_run_messages(const std::vector<ContactRun>& runs, std::vector<std::string>& messages)
@@ -414,7 +424,7 @@ void add_run_messages(const std::vector<ContactRun>& runs, std::vector<std::stri
         const ContactRun& r = runs[i];
         if (r.fe.status != Status::at_rest) messages.push_back(r.label() + ": " + sentences[i]);
         if (has_slip(r) && r.fe.run_out.ratchets())
-            messages.push_back(r.label() + ": " + fe2d::walked_sentence(r.fe.slip, r.fe.run_out));
+            messages.push_back(r.label() + ": " + walked_sentence(r.fe.slip, r.fe.run_out));
         for (const AnchorOutcome& anchor : r.fe.anchors)
             if (anchor.history.snapped_at)
                 messages.push_back(

@@ -18,6 +18,42 @@ namespace damslip::pages {
 
 namespace {
 
+std::vector<ColumnOf<fe2d::HistoryRow>> history_columns(bool water)
+{
+    using Row = fe2d::HistoryRow;
+    std::vector<ColumnOf<Row>> all = {
+        {{"time_s", "time", "s", 6}, &Row::time},
+        {{"ground_accel_h_m_s2", "ground acceleration a_h", "m/s²", 4}, &Row::ground_accel_h},
+        {{"ground_accel_v_m_s2", "ground acceleration a_v", "m/s²", 4}, &Row::ground_accel_v},
+        {{"crest_x_m", "crest displacement x", "m", 4}, &Row::crest_x},
+        {{"crest_y_m", "crest displacement y", "m", 4}, &Row::crest_y},
+        {{"crest_accel_x_m_s2", "crest acceleration x", "m/s²", 4}, &Row::crest_accel_x},
+        {{"crest_accel_y_m_s2", "crest acceleration y", "m/s²", 4}, &Row::crest_accel_y},
+        {{"base_shear_N_m", "base shear", "N/m", 4}, &Row::base_shear},
+        {{"base_normal_N_m", "base normal force", "N/m", 4}, &Row::base_normal},
+        {{"energy_kinetic_J_m", "kinetic energy", "J/m", 4}, [](const Row& r) { return r.energy.kinetic; }},
+        {{"energy_strain_J_m", "strain energy", "J/m", 4}, [](const Row& r) { return r.energy.strain; }},
+        {{"energy_damping_J_m", "damping", "J/m", 4}, [](const Row& r) { return r.energy.damping; }},
+        {{"energy_numerical_J_m", "numerical dissipation", "J/m", 4}, [](const Row& r) { return r.energy.numerical; }},
+        {{"energy_friction_J_m", "friction", "J/m", 4}, [](const Row& r) { return r.energy.friction; }},
+        {{"energy_radiated_J_m", "radiated", "J/m", 4}, [](const Row& r) { return r.energy.radiated; }},
+        {{"energy_external_J_m", "external work", "J/m", 4}, [](const Row& r) { return r.energy.external; }},
+        {{"energy_contact_normal_J_m", "contact normal work", "J/m", 4},
+         [](const Row& r) { return r.energy.contact_normal; }},
+        {{"energy_imbalance_J_m", "energy imbalance", "J/m", 2}, &Row::imbalance}};
+    if (water) all.push_back({{"water_force_x_N_m", "hydrodynamic force x", "N/m", 4}, &Row::water_force_x});
+    return all;
+}
+
+/// The rows as a table. Energies in J/m, forces in N/m.
+Table history_table(const fe2d::History& history)
+{
+    Table table = table_of("history", history_columns(history.peak_water_force > 0.0), history.rows);
+    if (history.status != fe2d::TiedRunStatus::complete) table.notes.push_back(text_of(history.ending));
+    for (const Note& note : history.notes) table.notes.push_back(text_of(note));
+    return table;
+}
+
 using units::mm;
 
 /// One line of a chart: a name and how it is read from a row.
@@ -89,7 +125,7 @@ Headline headline(const std::vector<TiedRun>& runs)
     if (runs.empty()) return {"No earthquake was run.", Outcome::none, "No answer."};
     for (const TiedRun& r : runs)
         if (r.history.status != fe2d::TiedRunStatus::complete)
-            return {r.record + ": " + r.history.status_text, Outcome::unresolved, "UNRESOLVED"};
+            return {r.record + ": " + text_of(r.history.ending), Outcome::unresolved, "UNRESOLVED"};
     const TiedRun& worst = *std::max_element(runs.begin(), runs.end(), [](const TiedRun& a, const TiedRun& b) {
         return a.history.peak_crest_x < b.history.peak_crest_x;
     });
@@ -132,7 +168,7 @@ Table run_table(const std::vector<TiedRun>& runs, bool with_seconds)
 {
     using R = TiedRun;
     const auto status = [](const R& r) {
-        return r.history.status == fe2d::TiedRunStatus::complete ? std::string("complete") : r.history.status_text;
+        return r.history.status == fe2d::TiedRunStatus::complete ? std::string("complete") : text_of(r.history.ending);
     };
     std::vector<ColumnOf<R>> columns{
         {in_brief({"record", "record"}), &R::record},
@@ -179,7 +215,7 @@ void write_tied_history(const std::filesystem::path& folder, const Scene& scene,
                            const TiedRun& run)
 {
     write_file(folder / (run_file("history", scene, run.record) + ".csv"),
-               csv(fe2d::tabulate(run.history), {"damslip " + program_version() + " fe --base tied",
+               csv(history_table(run.history), {"damslip " + program_version() + " fe --base tied",
                                                  "scene " + hash, "record " + run.record}));
 }
 

@@ -130,7 +130,7 @@ std::vector<std::string> modes_notes(const Scene& given, const ModesResult& m)
                         "radiates (foundation.wave_frequency_Hz)",
                         m.radiating->resolved / two_pi));
     if (m.coupled && m.coupled->status != fe2d::CoupledModesStatus::ok)
-        notes.push_back("not all coupled modes were found: " + m.coupled->solver.text());
+        notes.push_back("not all coupled modes were found: " + text_of(m.coupled->solver.note()));
     else if (m.coupled && m.count && *m.count > m.coupled->frequency.size())
         notes.push_back(fmt::format("{} of {} modes: with acoustic water those up to {:g} Hz are looked for",
                                     m.coupled->frequency.size(), *m.count, coupled_modes_to));
@@ -139,13 +139,13 @@ std::vector<std::string> modes_notes(const Scene& given, const ModesResult& m)
         for (std::string& warning : reservoir_warnings(m.scene, coupled_modes_to)) notes.push_back(std::move(warning));
     } else if (m.modes.status != fe2d::ModesStatus::ok) {
         notes.push_back(fmt::format("only {} of {} modes: {}", m.modes.frequency.size(), m.count.value_or(usual_modes),
-                                    m.modes.solver.text()));
+                                    text_of(m.modes.solver.note())));
     }
     if (m.scene.reservoir && m.modes.frequency.size() && !m.choice && !m.water)
         notes.push_back(criterion_sentence(m.scene, m.modes.frequency[0]));
     if (m.damping)
         for (const DampingOfModes::OfRecord& r : m.damping->modified)
-            for (const std::string& warning : r.found.warnings) notes.push_back(r.record + ": " + warning);
+            for (const Note& warning : r.found.warnings) notes.push_back(r.record + ": " + text_of(warning));
     return notes;
 }
 

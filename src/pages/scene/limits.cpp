@@ -114,13 +114,13 @@ Section limits_section(const Scene& scene, Method method)
 Section equilibrium_section(const std::vector<sliding::Equilibrium>& combinations)
 {
     Section section{"Limit equilibrium", {}, Fold::open};
-    if (Table matrix = sliding::check_matrix(combinations); !matrix.rows.empty())
+    if (Table matrix = check_matrix(combinations); !matrix.rows.empty())
         section.parts.push_back(rows_part(std::move(matrix)));
     else
         section.parts.push_back(Paragraph{
             "No required values are given, so there are no verdicts: name criteria.document, or required_... in "
             "[[combination]]."});
-    Table quantities = sliding::equilibrium_table(combinations);
+    Table quantities = equilibrium_table(combinations);
     quantities.title = "Quantities of each combination";
     section.parts.push_back(TablePart{
         std::move(quantities),
@@ -133,7 +133,7 @@ Section equilibrium_section(const std::vector<sliding::Equilibrium>& combination
          "of the resultant from the middle of the base, positive downstream; stresses: effective, compression "
          "positive. a_y: ground acceleration at which it starts to slide; tipping: at which it turns about its toe."}});
     for (const sliding::Equilibrium& e : combinations) {
-        Table loads = sliding::load_table(e);
+        Table loads = load_table(e);
         loads.title += std::string(", crack rule ") + sliding::word(e.crack_rule);
         section.parts.push_back(TablePart{std::move(loads), Layout::rows, 1, Fold::folded});
     }

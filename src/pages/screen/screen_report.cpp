@@ -168,7 +168,7 @@ Section yield_section(const Scene& scene, const Screening& s)
     if (!scene.anchors.empty()) section.parts.push_back(rows_part(anchor_list_table(scene)));
     if (!s.uplifts.empty())
         section.parts.push_back(
-            rows_part(sliding::uplift_comparison_table(s.uplifts),
+            rows_part(uplift_comparison_table(s.uplifts),
                       {"U: uplift on the uncracked base, positive up; critical μ: friction that just holds the dam "
                        "without an earthquake."}));
     return section;
@@ -345,7 +345,7 @@ Headline slip_headline(const Scene& scene, const Screening& s)
             checks_sentence(checks) + standing_sentence(s);
         if (checks.judged == 0) return {sentence, Outcome::none, "No criterion."};
         if (checks.failed)
-            return {sentence, Outcome::fail, "Load combinations: FAIL " + sliding::failed_checks(s.combinations)};
+            return {sentence, Outcome::fail, "Load combinations: FAIL " + failed_checks(s.combinations)};
         return {sentence, Outcome::pass, pass};
     }
     const std::string standing = standing_sentence(s);
@@ -361,7 +361,7 @@ Headline slip_headline(const Scene& scene, const Screening& s)
 Headline screen_headline(const Scene& scene, const Screening& s)
 {
     const Headline slip = with_planes(slip_headline(scene, s), s.planes, scene);
-    return s.slips.empty() ? slip : with_failed_checks(slip, sliding::failed_checks(s.combinations));
+    return s.slips.empty() ? slip : with_failed_checks(slip, failed_checks(s.combinations));
 }
 
 Page screen_page(const ScreenReportInput& in)
@@ -487,9 +487,9 @@ Answer screen_answer(const ScreenReportInput& in)
         out.add("planes", wedge_plane_table(in.scene, *model.wedge));
         out.add("yield", wedge_yield_table(in.scene, *model.wedge));
     } else {
-        out.add("limit_equilibrium", sliding::equilibrium_table(s.combinations), {.file = "equilibrium.csv", .turned = 3});
-        out.add("verdicts", sliding::verdict_table(s.combinations), {.text = false, .file = "verdicts.csv"});
-        const Table checks = sliding::check_matrix(s.combinations);
+        out.add("limit_equilibrium", equilibrium_table(s.combinations), {.file = "equilibrium.csv", .turned = 3});
+        out.add("verdicts", verdict_table(s.combinations), {.text = false, .file = "verdicts.csv"});
+        const Table checks = check_matrix(s.combinations);
         if (checks.rows.empty())
             out += "verdicts: no required values are given: criteria.document = \"FILE.toml\" would judge, such as\n"
                    "examples/criteria/canada_1999.toml, or required_... in [[combination]]\n\n";
@@ -498,7 +498,7 @@ Answer screen_answer(const ScreenReportInput& in)
         out.add("yield", yield_table(s), {.file = "yield.csv", .turned = 1});
         if (!in.given.lift_joints.empty()) out.add("lift_joints", lift_joint_table(in.given));
         if (!in.given.anchors.empty()) out.add("anchors", anchor_list_table(in.given));
-        out.add("uplift_profiles", sliding::uplift_comparison_table(s.uplifts));
+        out.add("uplift_profiles", uplift_comparison_table(s.uplifts));
     }
     if (in.spectrum) {
         out += spectrum_text(*in.spectrum) + "\n";

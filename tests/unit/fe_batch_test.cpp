@@ -22,7 +22,7 @@ std::vector<Contact> frictions(std::initializer_list<double> values)
 void expect_same(const RunResult& a, const RunResult& b)
 {
     EXPECT_EQ(a.status, b.status);
-    EXPECT_EQ(a.message, b.message);
+    EXPECT_EQ(a.notes, b.notes);
     EXPECT_EQ(a.history.time, b.history.time);
     EXPECT_EQ(a.history.slip, b.history.slip);
     EXPECT_EQ(a.history.crest_x, b.history.crest_x);
@@ -33,7 +33,7 @@ void expect_same(const RunResult& a, const RunResult& b)
 }
 
 // Seven frictions are groups of four, two and one in the factor; one fails statically and leaves the others in step.
-TEST(FeLanes, RunsInStepHaveTheBitsOfSingleRuns)
+TEST(FeBatch, RunsInStepHaveTheBitsOfSingleRuns)
 {
     Scene scene = sliding_dam(0.77, 1.0, 5.0);
     RunOptions options = options_of(scene);
@@ -52,7 +52,7 @@ TEST(FeLanes, RunsInStepHaveTheBitsOfSingleRuns)
 
 // Motions of other lengths, polarities and strengths in step: each ends when its own dam is at rest. One with samples twice as
 // far apart has steps of another size and goes by itself.
-TEST(FeLanes, MotionsInStepHaveTheBitsOfSingleRuns)
+TEST(FeBatch, MotionsInStepHaveTheBitsOfSingleRuns)
 {
     Scene scene = sliding_dam(0.77, 1.0, 5.0);
     const EarthquakeRun run(scene, options_of(scene));
@@ -75,7 +75,7 @@ TEST(FeLanes, MotionsInStepHaveTheBitsOfSingleRuns)
 }
 
 // Two sequences come to rest at times of their own, and so play their second records at times of their own.
-TEST(FeLanes, SequencesInStepHaveTheBitsOfSingleRuns)
+TEST(FeBatch, SequencesInStepHaveTheBitsOfSingleRuns)
 {
     Scene scene = sliding_dam(0.77, 1.0, 5.0);
     RunOptions options = options_of(scene);
@@ -95,8 +95,8 @@ TEST(FeLanes, SequencesInStepHaveTheBitsOfSingleRuns)
     EXPECT_NE(together[0].events[1].start, together[1].events[1].start);
 }
 
-// Lanes that need more sub-steps go on without the others; every step size is factorised once for all.
-TEST(FeLanes, StepSizesAreSharedByAllFrictions)
+// Runs that need more sub-steps go on without the others; every step size is factorised once for all.
+TEST(FeBatch, StepSizesAreSharedByAllFrictions)
 {
     const Scene scene = sliding_dam(0.77, 1.0, 5.0);
     const EarthquakeRun run(scene, options_of(scene));
@@ -112,7 +112,7 @@ TEST(FeLanes, StepSizesAreSharedByAllFrictions)
     EXPECT_LE(run.factorisations(), largest + 1); // some sizes may have been left out
 }
 
-TEST(FeLanes, FarSlidingLanesKeepTheirOwnPlaces)
+TEST(FeBatch, FarSlidingLanesKeepTheirOwnPlaces)
 {
     Scene scene = sliding_dam(0.77, 1.0, 5.0);
     RunOptions options = options_of(scene);
@@ -147,7 +147,7 @@ DynamicContact shaken(const EarthquakeRun& run, const Scene& scene, const RunOpt
 
 // An iteration that is cut off after three solutions does not resolve every step; halves of it, in which fewer pairs
 // change, it does. What is made in halves is an ordinary run of unequal steps: its energy closes as any other's.
-TEST(FeLanes, StepsThatAreNotResolvedAreMadeInHalves)
+TEST(FeBatch, StepsThatAreNotResolvedAreMadeInHalves)
 {
     const Scene scene = sliding_dam(0.70, 1.0, 5.0);
     const RunOptions options = options_of(scene);

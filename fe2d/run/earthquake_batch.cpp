@@ -21,17 +21,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// What of the base stands under full head after an earthquake; empty: nothing has cracked.
-std::string water_in(const CrackLengths& crack)
-{
-    const double length = crack.upstream + crack.downstream;
-    return length > 0.0 ? fmt::format("full head on {:.4g} m of the base", length) : std::string();
-}
-
-} // namespace
-
-namespace {
-
 double largest(const std::vector<double>& values)
 {
     return std::accumulate(values.begin(), values.end(), 0.0,
@@ -54,79 +43,79 @@ double worst(std::vector<double> errors)
 } // namespace
 
 /// A dam that nothing has loaded yet.
-EarthquakeRun::Lane EarthquakeRun::lane_of(const Contact& contact) const
+EarthquakeRun::BatchedRun EarthquakeRun::batched_run(const Contact& contact) const
 {
-    Lane lane{Strength(contact, joints_of(scene_), structure_->planes(),
+    BatchedRun batched{Strength(contact, joints_of(scene_), structure_->planes(),
                        scene_.seam_body ? scene_.seam_body->strengths : std::vector<Contact>{}),
               ContactMemory(structure_->pairs())};
-    lane.memory.laws = joint_laws(scene_, contact, structure_->planes());
+    batched.memory.laws = joint_laws(scene_, contact, structure_->planes());
     if (auto water = base_water(scene_, structure_->plane(), options_.uplift, options_.cracked_uplift,
                                 options_.drain_loss))
-        lane.memory.laws.add(std::move(water));
-    lane.contact = contact;
-    lane.load = stages_.last();
-    lane.uplift = options_.uplift;
-    return lane;
+        batched.memory.laws.add(std::move(water));
+    batched.contact = contact;
+    batched.load = stages_.last();
+    batched.uplift = options_.uplift;
+    return batched;
 }
 
 /// What rests on the dam while it shakes.
-SplitLoad EarthquakeRun::load_of(const Lane& lane) const
+SplitLoad EarthquakeRun::load_of(const BatchedRun& batched) const
 {
-    SplitLoad load = structure_->split(lane.load);
-    let_water_ride(*structure_, lane.uplift, load);
+    SplitLoad load = structure_->split(batched.load);
+    let_water_ride(*structure_, batched.uplift, load);
     return load;
 }
 
-/// The static stages. Where they do not end in equilibrium, lane.result.status says why.
+/// The static stages. Where they do not end in equilibrium, batched.result.status says why.
 /// @param from  null: a dam that no earthquake has shaken
-void EarthquakeRun::stand(Lane& lane, const RunState* from) const
+void EarthquakeRun::stand(BatchedRun& batched, const RunState* from) const
 {
     const Stopwatch clock;
-    RunResult& result = lane.result;
+    RunResult& result = batched.result;
     StaticContact contact_statics(statics_, scene_.contact, options_.contact);
-    result.zero_displacement = zero_displacement(contact_statics, lane.strength);
-    result.stages = statics(contact_statics, lane.strength, lane.memory);
-    if (result.stages.back().status == StageStatus::ok && from) go_on(contact_statics, lane, *from);
+    result.zero_displacement = zero_displacement(contact_statics, batched.strength);
+    result.stages = statics(contact_statics, batched.strength, batched.memory);
+    if (result.stages.back().status == StageStatus::ok && from) go_on(contact_statics, batched, *from);
     if (result.stages.back().status == StageStatus::ok) {
-        lane.start = contact_statics.displacements(load_of(lane), lane.memory);
+        batched.start = contact_statics.displacements(load_of(batched), batched.memory);
     } else {
         result.status = status_of(result.stages.back().status);
-        result.message = result.stages.back().text();
+        result.notes = result.stages.back().notes();
     }
     result.seconds.statics = clock.seconds();
 }
 
 /// The joints as an earthquake before has left them, in equilibrium under the static loads; with full head in what has cracked
 /// where uplift.after says so.
-void EarthquakeRun::go_on(StaticContact& statics, Lane& lane, const RunState& from) const
+void EarthquakeRun::go_on(StaticContact& statics, BatchedRun& batched, const RunState& from) const
 {
-    lane.memory.force = from.force;
-    lane.memory.opening = from.opening;
-    lane.memory.slip = from.slip;
-    lane.memory.states = from.states;
-    lane.strength.restore(from);
-    lane.memory.laws.restore(from.laws);
-    const SplitLoad before = load_of(lane);
-    auto* water = lane.memory.laws.find<CrackWater>();
+    batched.memory.force = from.force;
+    batched.memory.opening = from.opening;
+    batched.memory.slip = from.slip;
+    batched.memory.states = from.states;
+    batched.strength.restore(from);
+    batched.memory.laws.restore(from.laws);
+    const SplitLoad before = load_of(batched);
+    auto* water = batched.memory.laws.find<CrackWater>();
     if (water && (options_.cracked_uplift_after || water->report().drains_lost)) {
         const CrackLengths& crack = water->report().largest;
         const CrackedUplift& cracked = cracked_after(water->report());
-        lane.uplift = cracked ? cracked(crack.upstream, crack.downstream) : options_.drain_loss->before;
-        lane.load = load_with(stages_, *model_, lane.uplift);
-        water->rest_with(lane.uplift);
+        batched.uplift = cracked ? cracked(crack.upstream, crack.downstream) : options_.drain_loss->before;
+        batched.load = load_with(stages_, *model_, batched.uplift);
+        water->rest_with(batched.uplift);
     }
-    lane.result.stages.push_back(
-        solve_stage(statics, *structure_, "as it was left", load_of(lane), lane.strength, lane.memory, &before));
-    if (const auto* now = lane.memory.laws.find<CrackWater>(); now && options_.cracked_uplift_after) // a stage makes the memory anew
-        lane.result.stages.back().water = water_in(now->report().largest);
+    batched.result.stages.push_back(
+        solve_stage(statics, *structure_, "as it was left", load_of(batched), batched.strength, batched.memory, &before));
+    if (const auto* now = batched.memory.laws.find<CrackWater>(); now && options_.cracked_uplift_after) // a stage makes the memory anew
+        batched.result.stages.back().flooded = now->report().largest.upstream + now->report().largest.downstream;
 }
 
 /// Where the static stages leave the dam, and the loads that go on.
-EarthquakeRun::Rest EarthquakeRun::rest(const Lane& lane) const
+EarthquakeRun::Rest EarthquakeRun::rest(const BatchedRun& batched) const
 {
-    if (!moving_) return {load_of(lane), lane.start};
+    if (!moving_) return {load_of(batched), batched.start};
     const HeldStart held = held_edges(*model_, *moving_model_,
-                                      structure_->assemble(lane.start.dam, lane.start.rock, lane.load), lane.load);
+                                      structure_->assemble(batched.start.dam, batched.start.rock, batched.load), batched.load);
     Rest rest;
     rest.load.dam = moving_->with_rock_to_order(held.load);
     rest.start.dam = moving_->with_rock_to_order(held.displacement);
@@ -142,9 +131,9 @@ VectorXd EarthquakeRun::displacement_of(const VectorXd& moving, const VectorXd& 
 
 /// Control of the steps in pass `level`. Half a step has an eighth of the local error, so the worst steps of the first pass
 /// are halved `level` times, and the others as often as they need to reach the same local error.
-StepControl EarthquakeRun::control_of(const Lane& lane, int level) const
+StepControl EarthquakeRun::control_of(const BatchedRun& batched, int level) const
 {
-    return {lane.local_error / std::pow(8.0, level), level};
+    return {batched.local_error / std::pow(8.0, level), level};
 }
 
 /// Of frames, by the end of the record's samples [s]; 0: none are asked for.
@@ -153,34 +142,34 @@ double EarthquakeRun::frame_interval(double record_end) const
     return options_.frames > 1 ? record_end / (options_.frames - 1) : 0.0;
 }
 
-/// The steps of a pass over the lane's motion.
-PassSteps EarthquakeRun::pass_steps(const Lane& lane, int parts) const
+/// The steps of a pass over the batched's motion.
+PassSteps EarthquakeRun::pass_steps(const BatchedRun& batched, int parts) const
 {
-    return {scene_.time.dt.value_or(lane.motion->dt), parts, scene_.sliding.run_out_max, rest_time()};
+    return {scene_.time.dt.value_or(batched.motion->dt), parts, scene_.sliding.run_out_max, rest_time()};
 }
 
-bool EarthquakeRun::adapts_steps(const Lane& lane) const
+bool EarthquakeRun::adapts_steps(const BatchedRun& batched) const
 {
-    return scene_.time.stepping == Stepping::adaptive && !scene_.time.substeps && !lane.steps.has_value();
+    return scene_.time.stepping == Stepping::adaptive && !scene_.time.substeps && !batched.steps.has_value();
 }
 
-/// One pass of each lane. Lanes with steps of the same size go on side by side; a sequence that rests between its records, and
+/// One pass of each run. Runs with steps of the same size go on side by side; a sequence that rests between its records, and
 /// explicit steps, go alone.
-std::vector<RunResult> EarthquakeRun::shake(int halvings, std::span<Lane* const> lanes) const
+std::vector<RunResult> EarthquakeRun::shake(int halvings, std::span<BatchedRun* const> batch) const
 {
-    std::vector<RunResult> results(lanes.size());
-    std::vector<std::size_t> left(lanes.size());
+    std::vector<RunResult> results(batch.size());
+    std::vector<std::size_t> left(batch.size());
     std::iota(left.begin(), left.end(), 0);
     while (!left.empty()) {
-        const Lane& first = *lanes[left.front()];
+        const BatchedRun& first = *batch[left.front()];
         const auto goes_along = [&](std::size_t i) {
-            return lanes[i] == &first ||
-                   (!explicit_ && !rests_between(*first.motion) && !rests_between(*lanes[i]->motion) &&
-                    pass_steps(*lanes[i], 1) == pass_steps(first, 1));
+            return batch[i] == &first ||
+                   (!explicit_ && !rests_between(*first.motion) && !rests_between(*batch[i]->motion) &&
+                    pass_steps(*batch[i], 1) == pass_steps(first, 1));
         };
         const auto others = std::stable_partition(left.begin(), left.end(), goes_along);
-        std::vector<Lane*> together;
-        for (auto i = left.begin(); i != others; ++i) together.push_back(lanes[*i]);
+        std::vector<BatchedRun*> together;
+        for (auto i = left.begin(); i != others; ++i) together.push_back(batch[*i]);
         std::vector<RunResult> some;
         if (rests_between(*first.motion))
             some.push_back(shake_with_rests(halvings, *together.front()));
@@ -194,28 +183,28 @@ std::vector<RunResult> EarthquakeRun::shake(int halvings, std::span<Lane* const>
     return results;
 }
 
-std::unique_ptr<EarthquakePass> EarthquakeRun::pass_of(const Lane& lane, int halvings, const PassSteps& steps) const
+std::unique_ptr<EarthquakePass> EarthquakeRun::pass_of(const BatchedRun& batched, int halvings, const PassSteps& steps) const
 {
-    const Rest at_rest = rest(lane);
-    DynamicContact start(operators_, at_rest.load, at_rest.start, lane.memory, scene_.contact, options_.contact);
-    if (adapts_steps(lane)) start.control(control_of(lane, halvings));
-    PlayedGround ground(*lane.motion, damping_.mass, damping_.constants.mass);
+    const Rest at_rest = rest(batched);
+    DynamicContact start(operators_, at_rest.load, at_rest.start, batched.memory, scene_.contact, options_.contact);
+    if (adapts_steps(batched)) start.control(control_of(batched, halvings));
+    PlayedGround ground(*batched.motion, damping_.mass, damping_.constants.mass);
     const double interval = frame_interval(ground.samples_end());
-    SlideWatch watch = slide_watch(lane, ground.end());
-    return std::make_unique<EarthquakePass>(std::move(start), std::move(ground), steps, lane.strength, lane.result,
-                                            options_.pair_series, interval, lane.before, std::move(watch), *cracks_,
+    SlideWatch watch = slide_watch(batched, ground.end());
+    return std::make_unique<EarthquakePass>(std::move(start), std::move(ground), steps, batched.strength, batched.result,
+                                            options_.pair_series, interval, batched.before, std::move(watch), *cracks_,
                                             options_.ends_when_lifts_wake);
 }
 
-/// Lanes with steps of the same size, side by side.
-std::vector<RunResult> EarthquakeRun::shake_in_step(int halvings, std::span<Lane* const> lanes) const
+/// Runs with steps of the same size, side by side.
+std::vector<RunResult> EarthquakeRun::shake_in_step(int halvings, std::span<BatchedRun* const> batch) const
 {
     const Stopwatch clock;
-    const PassSteps steps = pass_steps(*lanes.front(), adapts_steps(*lanes.front()) ? 1 : 1 << halvings);
+    const PassSteps steps = pass_steps(*batch.front(), adapts_steps(*batch.front()) ? 1 : 1 << halvings);
     std::vector<std::unique_ptr<EarthquakePass>> passes;
     std::size_t longest = 0; // what is left of it is what is left of all
-    for (const Lane* lane : lanes) {
-        passes.push_back(pass_of(*lane, halvings, steps));
+    for (const BatchedRun* batched : batch) {
+        passes.push_back(pass_of(*batched, halvings, steps));
         if (passes.back()->shown_rows() > passes[longest]->shown_rows()) longest = passes.size() - 1;
     }
     std::optional<HeelWaves> waves;
@@ -223,7 +212,7 @@ std::vector<RunResult> EarthquakeRun::shake_in_step(int halvings, std::span<Lane
         scene_.uplift->water.wet_end == WetEndPressure::with_waves)
         waves.emplace(scene_, in_motion(), water_.get(), options_.added_mass);
 
-    std::vector<DynamicContact::Lane> under_way;
+    std::vector<DynamicContact::BatchedRun> under_way;
     const auto any = [&] {
         return std::any_of(passes.begin(), passes.end(), [](const auto& p) { return p->going(); });
     };
@@ -231,32 +220,32 @@ std::vector<RunResult> EarthquakeRun::shake_in_step(int halvings, std::span<Lane
         for (int part = 1; part <= steps.parts; ++part) {
             under_way.clear();
             for (const auto& pass : passes)
-                if (pass->makes_steps()) under_way.push_back(pass->lane(steps.time(n, part)));
+                if (pass->makes_steps()) under_way.push_back(pass->batched(steps.time(n, part)));
             if (waves)
-                for (const DynamicContact::Lane& lane : under_way)
-                    lane.run->set_wave_pressure(waves->pressure(lane.run->state()));
+                for (const DynamicContact::BatchedRun& batched : under_way)
+                    batched.run->set_wave_pressure(waves->pressure(batched.run->state()));
             DynamicContact::advance(under_way, steps.step());
             for (const auto& pass : passes)
                 if (pass->going()) pass->after_step();
         }
         const bool stopped =
-            options_.progress && options_.progress(progress_of(*lanes[longest], halvings, passes[longest]->shown_rows(),
+            options_.progress && options_.progress(progress_of(*batch[longest], halvings, passes[longest]->shown_rows(),
                                                                n + 1, steps.row)) == RunAnswer::stop;
         for (const auto& pass : passes)
             if (pass->going()) pass->after_row(n, stopped);
     }
-    const double seconds = clock.seconds() / static_cast<double>(lanes.size());
+    const double seconds = clock.seconds() / static_cast<double>(batch.size());
     std::vector<RunResult> results;
     for (std::size_t i = 0; i < passes.size(); ++i) {
         EarthquakePass& pass = *passes[i];
         RunResult& result = pass.finish();
         result.halvings = halvings;
         const DynamicContact& dynamics = pass.dynamics();
-        if (adapts_steps(*lanes[i])) {
-            if (halvings == 0) lanes[i]->local_error = worst(dynamics.local_errors());
+        if (adapts_steps(*batch[i])) {
+            if (halvings == 0) batch[i]->local_error = worst(dynamics.local_errors());
             result.dt = dynamics.state().time / std::max(1, dynamics.counts().steps);
         }
-        end_lane(dynamics, pass.strength(), *lanes[i], result);
+        end_run(dynamics, pass.strength(), *batch[i], result);
         result.seconds.dynamics += seconds;
         results.push_back(std::move(result));
     }
@@ -307,7 +296,7 @@ void add_run_before(const RunResult& before, RunResult& run)
 
 /// A sequence whose water follows the crack between its records: each begins from a static state with it, as a run does
 /// that starts from the state another one has left (options.start), with the same bits.
-RunResult EarthquakeRun::shake_with_rests(int halvings, Lane& first) const
+RunResult EarthquakeRun::shake_with_rests(int halvings, BatchedRun& first) const
 {
     const GroundMotion& motion = *first.motion;
     const std::size_t records = motion.events.size();
@@ -327,10 +316,10 @@ RunResult EarthquakeRun::shake_with_rests(int halvings, Lane& first) const
     for (std::size_t k = 0; k < records; ++k) {
         const GroundMotion alone = event_alone(motion, k);
         const double begin = k == 0 ? 0.0 : run.history.time.back() + motion.dt + motion.pause;
-        std::optional<Lane> later;
+        std::optional<BatchedRun> later;
         if (k > 0) {
             if (run.status != Status::at_rest) break;
-            later = lane_of(first.contact);
+            later = batched_run(first.contact);
             stand(*later, &run.state);
             StageResult standing = later->result.stages.back();
             standing.name = fmt::format("before \"{}\"", alone.name);
@@ -338,7 +327,7 @@ RunResult EarthquakeRun::shake_with_rests(int halvings, Lane& first) const
             run.between.push_back(standing);
             if (standing.status != StageStatus::ok) {
                 run.status = status_of(standing.status);
-                run.message = standing.text();
+                run.notes = standing.notes();
                 break;
             }
             later->before = HistoryBefore{begin, run.history.energy.back(), run.history.imbalance.back(),
@@ -349,9 +338,9 @@ RunResult EarthquakeRun::shake_with_rests(int halvings, Lane& first) const
             later->steps_before = steps_before;
             later->steps_of_all = first.steps_of_all;
         }
-        Lane* const lane[] = {later ? &*later : &first};
-        lane[0]->motion = &alone;
-        RunResult now = std::move(shake(halvings, lane).front());
+        BatchedRun* const batched[] = {later ? &*later : &first};
+        batched[0]->motion = &alone;
+        RunResult now = std::move(shake(halvings, batched).front());
         first.motion = &motion;
         if (later) {
             add_run_before(run, now);
@@ -368,7 +357,7 @@ RunResult EarthquakeRun::shake_with_rests(int halvings, Lane& first) const
 }
 
 /// The figures at the end of a pass, and the static state after it.
-void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& strength_at_end, const Lane& lane,
+void EarthquakeRun::end_run(const ContactMotion& dynamics, const Strength& strength_at_end, const BatchedRun& batched,
                              RunResult& result) const
 {
     const DynamicState& end = dynamics.state();
@@ -396,13 +385,13 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
     const VectorXd force = end.contact.contact_force();
     result.pair_pressure = force.head(m).cwiseQuotient(plane.area);
     result.pair_shear = -force.segment(planes.pairs(), m).cwiseQuotient(plane.area);
-    result.pair_slip = (end.contact.slip - (lane.before ? lane.before->slip_zero : lane.memory.slip)).head(m);
+    result.pair_slip = (end.contact.slip - (batched.before ? batched.before->slip_zero : batched.memory.slip)).head(m);
     result.pair_opening = end.contact.opening.head(m);
     result.lifts.clear();
     for (std::size_t k = 0; k < result.history.lifts.size(); ++k) {
         const LiftHistory& h = result.history.lifts[k];
         LiftResult& lift = result.lifts.emplace_back();
-        lift.plane = lane.result.stages.front().lifts[k].plane;
+        lift.plane = batched.result.stages.front().lifts[k].plane;
         lift.name = joints_of(scene_)[k].name;
         lift.slip = h.slip.back();
         lift.largest_slip = dynamics.largest_slips().of(static_cast<Index>(k + 1));
@@ -437,16 +426,16 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
         let_water_ride(*structure_, uplift.empty() ? options_.uplift : uplift, split);
         return split;
     };
-    const SplitLoad before = load_of(lane);
+    const SplitLoad before = load_of(batched);
     const bool drains_lost = result.base_water && result.base_water->drains_lost;
     const CrackedUplift& uplift_after = drains_lost ? options_.drain_loss->uplift_after : options_.uplift_after;
     result.after = stage_after(*statics, *structure_, uplift_after, crack, load, strength_at_end, end.contact,
                                &before, structure_->slides_far() ? Relaxation{} : relaxation());
 }
 
-SlideWatch EarthquakeRun::slide_watch(const Lane& lane, double record_end) const
+SlideWatch EarthquakeRun::slide_watch(const BatchedRun& batched, double record_end) const
 {
-    const double normal_force = lane.result.rest().resultant.normal_force;
+    const double normal_force = batched.result.rest().resultant.normal_force;
     return {{record_end, normal_force, scene_.sliding.steady_rate_change}, [this] { return window(); }};
 }
 
@@ -466,7 +455,7 @@ std::vector<std::size_t> event_rows(const RunResult& run)
 
 } // namespace
 
-void EarthquakeRun::Lane::note_slips(const RunResult& pass)
+void EarthquakeRun::BatchedRun::note_slips(const RunResult& pass)
 {
     const bool first = slips.empty();
     slips.resize(1 + pass.lifts.size());
@@ -480,44 +469,44 @@ void EarthquakeRun::Lane::note_slips(const RunResult& pass)
                                 first ? 0.0 : change(result.history.lifts[k].slip, pass.history.lifts[k].slip)});
 }
 
-double EarthquakeRun::Lane::order_in_step() const
+double EarthquakeRun::BatchedRun::order_in_step() const
 {
     const bool sudden = memory.laws.find<BondLaw>() || memory.laws.find<CrackWater>() || !strength.constant();
     return sudden ? sudden_order : contact_order;
 }
 
-/// A pass with smaller steps; lanes whose error is still too large get the next one.
-void EarthquakeRun::refine(int halvings, std::span<Lane* const> lanes) const
+/// A pass with smaller steps; runs whose error is still too large get the next one.
+void EarthquakeRun::refine(int halvings, std::span<BatchedRun* const> batch) const
 {
-    std::vector<RunResult> finer = shake(halvings, lanes);
-    for (std::size_t i = 0; i < lanes.size(); ++i) {
-        Lane& lane = *lanes[i];
-        lane.next = 0;
+    std::vector<RunResult> finer = shake(halvings, batch);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+        BatchedRun& batched = *batch[i];
+        batched.next = 0;
         if (finer[i].status == Status::interrupted) { // the whole coarser run tells more than part of the finer
-            lane.result.status = Status::interrupted;
-            lane.result.message = fmt::format("Interrupted with sub-steps of {:.4g} s; slip {:.4g} mm with {:.4g} s.",
-                                              finer[i].dt, 1e3 * lane.result.slip, lane.result.dt);
-            lane.result.cracks = std::move(finer[i].cracks);
+            batched.result.status = Status::interrupted;
+            batched.result.notes = {
+                {NoteKind::interrupted_refining, {finer[i].dt, 1e3 * batched.result.slip, batched.result.dt}}};
+            batched.result.cracks = std::move(finer[i].cracks);
             continue;
         }
-        const bool was_self_excited = lane.result.status == Status::self_excited;
-        lane.note_slips(finer[i]);
-        lane.result = std::move(finer[i]);
-        const double order = lane.order_in_step();
-        lane.result.slip_error = step_error(lane.slips.front(), order);
-        for (std::size_t k = 0; k < lane.result.lifts.size(); ++k)
-            lane.result.lifts[k].slip_error = step_error(lane.slips[k + 1], order);
+        const bool was_self_excited = batched.result.status == Status::self_excited;
+        batched.note_slips(finer[i]);
+        batched.result = std::move(finer[i]);
+        const double order = batched.order_in_step();
+        batched.result.slip_error = step_error(batched.slips.front(), order);
+        for (std::size_t k = 0; k < batched.result.lifts.size(); ++k)
+            batched.result.lifts[k].slip_error = step_error(batched.slips[k + 1], order);
         double excess = 0.0; // error over what is wanted, the largest of all planes
-        for (std::size_t k = 0; k < lane.slips.size(); ++k) {
-            const double slip = k == 0 ? lane.result.max_slip : lane.result.lifts[k - 1].largest_slip;
-            excess = std::max(excess, step_error(lane.slips[k], order) /
+        for (std::size_t k = 0; k < batched.slips.size(); ++k) {
+            const double slip = k == 0 ? batched.result.max_slip : batched.result.lifts[k - 1].largest_slip;
+            excess = std::max(excess, step_error(batched.slips[k], order) /
                                           (scene_.time.slip_tolerance * std::max(slip, options_.smallest_slip)));
         }
-        if (lane.result.status == Status::left_plane || excess <= 1.0) continue;
-        if (was_self_excited && lane.result.status == Status::self_excited)
+        if (batched.result.status == Status::left_plane || excess <= 1.0) continue;
+        if (was_self_excited && batched.result.status == Status::self_excited)
             continue; // both agree; there is no slip to refine
-        lane.next = next_halvings(lane.slips.front(), excess, order);
-        if (halvings < options_.largest_halvings) lane.next = std::min(lane.next, options_.largest_halvings);
+        batched.next = next_halvings(batched.slips.front(), excess, order);
+        if (halvings < options_.largest_halvings) batched.next = std::min(batched.next, options_.largest_halvings);
     }
 }
 
@@ -540,23 +529,23 @@ std::vector<RunResult> EarthquakeRun::run_all(std::span<const Shaking> shakings,
                                               const std::optional<ChosenSteps>& steps) const
 {
     std::vector<RunResult> results(shakings.size());
-    std::vector<std::unique_ptr<Lane>> lanes(shakings.size()); // null: it cannot move
-    std::vector<Lane*> going;
+    std::vector<std::unique_ptr<BatchedRun>> batch(shakings.size()); // null: it cannot move
+    std::vector<BatchedRun*> going;
     const int first = steps ? steps->halvings : scene_.time.substeps.value_or(0);
     const bool chosen = !steps && !scene_.time.substeps; // by the slip tolerance
     for (std::size_t i = 0; i < shakings.size(); ++i) {
-        results[i].message = why_not_;
+        results[i].notes = why_not_;
         if (!usable_) continue;
         const double step = scene_.time.dt.value_or(shakings[i].motion->dt) / (1 << first);
         if (operators_ && !operators_->at(step).regular()) { // explicit steps factorise nothing
-            results[i].message = fmt::format("The equations of a step of {:.4g} s could not be factorised.", step);
+            results[i].notes = {{NoteKind::step_not_factorised, {step}}};
             continue;
         }
-        lanes[i] = std::make_unique<Lane>(lane_of(shakings[i].contact));
-        lanes[i]->motion = shakings[i].motion;
-        lanes[i]->steps = steps;
-        stand(*lanes[i], options_.start ? &*options_.start : nullptr);
-        if (lanes[i]->stands()) going.push_back(lanes[i].get());
+        batch[i] = std::make_unique<BatchedRun>(batched_run(shakings[i].contact));
+        batch[i]->motion = shakings[i].motion;
+        batch[i]->steps = steps;
+        stand(*batch[i], options_.start ? &*options_.start : nullptr);
+        if (batch[i]->stands()) going.push_back(batch[i].get());
     }
     std::vector<RunResult> coarse = shake(first, going);
     for (std::size_t i = 0; i < going.size(); ++i) {
@@ -566,16 +555,16 @@ std::vector<RunResult> EarthquakeRun::run_all(std::span<const Shaking> shakings,
         going[i]->next = first + 1;
     }
     for (int k = first + 1; chosen && k <= options_.largest_halvings; ++k) {
-        std::vector<Lane*> now;
-        for (Lane* lane : going)
-            if (lane->next == k && lane->result.status != Status::interrupted) now.push_back(lane);
+        std::vector<BatchedRun*> now;
+        for (BatchedRun* batched : going)
+            if (batched->next == k && batched->result.status != Status::interrupted) now.push_back(batched);
         if (!now.empty()) refine(k, now);
     }
     for (std::size_t i = 0; i < results.size(); ++i) {
-        if (Lane* lane = lanes[i].get()) {
-            const bool stands = lane->stands();
-            if (lane->next != 0 && chosen && over(lane->result.status)) lane->result.status = Status::tolerance_missed;
-            results[i] = std::move(lane->result);
+        if (BatchedRun* batched = batch[i].get()) {
+            const bool stands = batched->stands();
+            if (batched->next != 0 && chosen && over(batched->result.status)) batched->result.status = Status::tolerance_missed;
+            results[i] = std::move(batched->result);
             if (stands) judge(results[i]);
         }
         results[i].seconds.model = seconds_;

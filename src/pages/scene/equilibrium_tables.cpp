@@ -1,4 +1,4 @@
-#include "sliding/equilibrium/limit_equilibrium.hpp"
+#include "pages/scene/scene_pages.hpp"
 
 #include "core/units.hpp"
 
@@ -6,7 +6,17 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace damslip::sliding {
+namespace damslip::pages {
+
+using sliding::Check;
+using sliding::CrackStatus;
+using sliding::Equilibrium;
+using sliding::Force;
+using sliding::Load;
+using sliding::ResultantZone;
+using sliding::UpliftComparison;
+using sliding::Verdict;
+using sliding::word;
 
 namespace {
 
@@ -100,8 +110,8 @@ Table equilibrium_table(const std::vector<Equilibrium>& all)
                     [](const Equilibrium& e) { return e.critical_friction == 0.0 && e.cohesion > 0.0; }))
         table.notes.push_back("critical μ 0: cohesion alone suffices.");
     for (const Equilibrium& e : all)
-        for (const std::string& note : e.notes)
-            table.notes.push_back(e.name + " (crack rule " + word(e.crack_rule) + "): " + note + ".");
+        for (const Note& note : e.notes)
+            table.notes.push_back(e.name + " (crack rule " + word(e.crack_rule) + "): " + text_of(note) + ".");
     return table;
 }
 
@@ -217,4 +227,4 @@ Table uplift_comparison_table(const std::vector<UpliftComparison>& all)
                        all);
 }
 
-} // namespace damslip::sliding
+} // namespace damslip::pages
