@@ -340,8 +340,7 @@ public:
 private:
     int node(double s, double fraction)
     {
-        const Point u = faces_.upstream_at(s), d = faces_.downstream_at(s);
-        mesh_.nodes.push_back({u.x + fraction * (d.x - u.x), u.y + fraction * (d.y - u.y)});
+        mesh_.nodes.push_back(faces_.at(s, fraction));
         return mesh_.node_count() - 1;
     }
 
@@ -415,6 +414,23 @@ LiftPlane lift_plane(const Mesh& mesh, const Row& lower, const Row& upper)
     return plane;
 }
 
+/// Along the path of a crack.
+void bend(const Mesh& mesh, LiftPlane& plane)
+{
+    plane.bent = true;
+    for (std::size_t i = 1; i < plane.distance.size(); ++i) {
+        const Point a = mesh.nodes[plane.lower_nodes[i - 1]], b = mesh.nodes[plane.lower_nodes[i]];
+        plane.distance[i] = plane.distance[i - 1] + std::hypot(b.x - a.x, b.y - a.y);
+    }
+}
+
+const Faces::Layer& joint_of(const Faces& faces, double s)
+{
+    return *std::min_element(faces.layers.begin(), faces.layers.end(), [s](const Faces::Layer& a, const Faces::Layer& b) {
+        return std::abs(a.s - s) < std::abs(b.s - s);
+    });
+}
+
 } // namespace
 
 void append_dam(Mesh& mesh, const Faces& faces, const DamLayout& layout)
@@ -447,6 +463,7 @@ void append_dam(Mesh& mesh, const Faces& faces, const DamLayout& layout)
         if (!is_one_of(layout.joints)) continue;
         const Row upper = build.again(row);
         mesh.lifts.push_back(lift_plane(mesh, row, upper));
+        if (!joint_of(faces, s).path.empty()) bend(mesh, mesh.lifts.back());
         row = upper;
         add_to_faces(row);
     }

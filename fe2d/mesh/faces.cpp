@@ -72,23 +72,30 @@ Polyline points_of(const Polyline& polygon, const std::vector<std::size_t>& chai
 
 using Layers = std::vector<Faces::Layer>;
 
+using Level = double Faces::Layer::*; ///< of a layer at one of the faces
+
+struct Station {
+    double s, level;
+};
+
 /// Ends of the interval of a face's (s, y) between base, layers and crest that `inside` is true for first.
 template <class Inside>
-std::pair<Faces::Layer, Faces::Layer> interval(const Polyline& face, const Layers& layers, Inside inside)
+std::pair<Station, Station> interval(const Polyline& face, const Layers& layers, Level level, Inside inside)
 {
-    Faces::Layer from{0.0, face.front().y};
+    Station from{0.0, face.front().y};
     for (const Faces::Layer& layer : layers) {
-        if (inside(layer)) return {from, layer};
-        from = layer;
+        const Station here{layer.s, layer.*level};
+        if (inside(here)) return {from, here};
+        from = here;
     }
     return {from, {1.0, face.back().y}};
 }
 
-Point at(const Polyline& face, const Layers& layers, double s)
+Point at(const Polyline& face, const Layers& layers, Level level, double s)
 {
     if (s <= 0.0) return face.front();
     if (s >= 1.0) return face.back();
-    const auto [from, to] = interval(face, layers, [s](const Faces::Layer& layer) { return s <= layer.s; });
+    const auto [from, to] = interval(face, layers, level, [s](const Station& layer) { return s <= layer.s; });
     const double y = s == to.s ? to.level : from.level + (s - from.s) / (to.s - from.s) * (to.level - from.level);
     std::size_t i = 0;
     while (i + 2 < face.size() && face[i + 1].y < y) ++i;
@@ -96,9 +103,9 @@ Point at(const Polyline& face, const Layers& layers, double s)
     return {face[i].x + t * (face[i + 1].x - face[i].x), y};
 }
 
-double parameter(const Polyline& face, const Layers& layers, double y)
+double parameter(const Polyline& face, const Layers& layers, Level level, double y)
 {
-    const auto [from, to] = interval(face, layers, [y](const Faces::Layer& layer) { return y <= layer.level; });
+    const auto [from, to] = interval(face, layers, level, [y](const Station& layer) { return y <= layer.level; });
     if (y == to.level) return to.s;
     return from.s + (y - from.level) / (to.level - from.level) * (to.s - from.s);
 }
@@ -109,37 +116,68 @@ Layers joint_layers(const Scene& scene, const Polyline& upstream, const Polyline
     const double low = std::max(upstream.front().y, downstream.front().y);
     const double high = std::min(upstream.back().y, downstream.back().y);
     Layers layers;
-    for (const LiftJoint& joint : scene.lift_joints) layers.push_back({0.0, joint.elevation});
-    for (const LiftJoint& joint : scene.tied_lifts) layers.push_back({0.0, joint.elevation, true});
+    for (const LiftJoint& joint : scene.lift_joints)
+        layers.push_back({.level = joint.elevation,
+                          .downstream = joint.path.empty() ? joint.elevation : joint.path.back().y,
+                          .path = joint.path});
+    for (const LiftJoint& joint : scene.tied_lifts) layers.push_back({.level = joint.elevation, .tied = true});
     // A row of nodes at each step of the thickness, so that no element has two shares.
     const Polyline& share = scene.section.thickness;
     for (std::size_t i = 1; i < share.size(); ++i) {
         const double y = share[i].x;
         const bool taken = std::any_of(layers.begin(), layers.end(),
                                        [y](const Faces::Layer& l) { return std::abs(l.level - y) < same_level; });
-        if (y == share[i - 1].x && y > low && y < high && !taken) layers.push_back({0.0, y, false, true});
+        if (y == share[i - 1].x && y > low && y < high && !taken) layers.push_back({.level = y, .step = true});
     }
     std::sort(layers.begin(), layers.end(), [](const auto& a, const auto& b) { return a.level < b.level; });
     for (Faces::Layer& layer : layers) {
-        const double y = layer.level;
-        if (!(y > low && y < high))
+        const double y = layer.level, other = layer.downstream;
+        if (!(y > low && y < high && other > low && other < high))
             refuse(scene.file,
                    "lift_joint.elevation_m = " + shortest(y) + " is not between base and crest on both faces.",
                    "above " + shortest(low) + " m and below " + shortest(high) + " m", "move the joint");
-        layer.s = 0.5 * (parameter(upstream, {}, y) + parameter(downstream, {}, y));
+        layer.s = 0.5 * (parameter(upstream, {}, &Faces::Layer::level, y) +
+                         parameter(downstream, {}, &Faces::Layer::downstream, other));
     }
     return layers;
 }
 
 } // namespace
 
+double height_on(const Polyline& path, double x)
+{
+    if (x <= path.front().x) return path.front().y;
+    for (std::size_t i = 1; i < path.size(); ++i)
+        if (x <= path[i].x)
+            return path[i - 1].y + (x - path[i - 1].x) / (path[i].x - path[i - 1].x) * (path[i].y - path[i - 1].y);
+    return path.back().y;
+}
+
 Point Faces::upstream_at(double s) const
 {
-    return at(upstream, layers, s);
+    return damslip::fe2d::at(upstream, layers, &Layer::level, s);
 }
 Point Faces::downstream_at(double s) const
 {
-    return at(downstream, layers, s);
+    return damslip::fe2d::at(downstream, layers, &Layer::downstream, s);
+}
+
+Point Faces::at(double s, double fraction) const
+{
+    const auto straight = [&](double row) {
+        const Point u = upstream_at(row), d = downstream_at(row);
+        return Point{u.x + fraction * (d.x - u.x), u.y + fraction * (d.y - u.y)};
+    };
+    Point p = straight(s);
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+        const Layer& layer = layers[k];
+        const double below = k == 0 ? 0.0 : layers[k - 1].s, above = k + 1 == layers.size() ? 1.0 : layers[k + 1].s;
+        if (layer.path.empty() || s <= below || s >= above) continue;
+        const double share = s <= layer.s ? (s - below) / (layer.s - below) : (above - s) / (above - layer.s);
+        const Point on = straight(layer.s);
+        p.y += share * (height_on(layer.path, on.x) - on.y);
+    }
+    return p;
 }
 
 double Faces::width_at(double s) const
@@ -157,7 +195,8 @@ std::vector<double> Faces::kinks() const
 {
     std::vector<double> all;
     for (const Polyline* face : {&upstream, &downstream})
-        for (const Point& p : *face) all.push_back(parameter(*face, layers, p.y));
+        for (const Point& p : *face)
+            all.push_back(parameter(*face, layers, face == &upstream ? &Layer::level : &Layer::downstream, p.y));
     for (const Layer& layer : layers) all.push_back(layer.s);
     std::sort(all.begin(), all.end());
     std::vector<double> distinct;
@@ -170,7 +209,7 @@ std::vector<double> Faces::kinks() const
 
 double Faces::parameter_of_level(double y) const
 {
-    return parameter(upstream, layers, y);
+    return parameter(upstream, layers, &Layer::level, y);
 }
 bool Faces::ends_in_point() const
 {

@@ -13,18 +13,22 @@ namespace damslip::fe2d {
 /// horizontal base and crest a line s = const is a horizontal layer; an inclined base or crest is blended linearly over
 /// the height, piecewise between the lift joints, which are horizontal layers always.
 struct Faces {
-    /// A layer that is horizontal whatever base and crest are.
+    /// A layer that is horizontal whatever base and crest are, or follows the path of a crack.
     struct Layer {
         double s = 0.0;     ///< its height parameter
-        double level = 0.0; ///< above the heel [m]
+        double level = 0.0; ///< above the heel, at the upstream face [m]
         bool tied = false;  ///< of Scene::tied_lifts
         bool step = false;  ///< of Section::thickness
+        double downstream = level; ///< at the downstream face [m]
+        Polyline path = {};        ///< LiftJoint::path
     };
 
     Polyline upstream;         ///< heel to the upstream end of the crest, y strictly increasing
     Polyline downstream;       ///< toe to the downstream end of the crest, y strictly increasing
     std::vector<Layer> layers; ///< the lift joints and tied lifts, from the bottom up
 
+    /// A node of the row s; near the path of a crack rows bend with it.
+    Point at(double s, double fraction) const;
     Point upstream_at(double s) const;
     Point downstream_at(double s) const;
     double width_at(double s) const; ///< between the faces at s [m]
@@ -34,6 +38,9 @@ struct Faces {
     double parameter_of_level(double y) const; ///< s at which the upstream face reaches the level y [m]
     bool ends_in_point() const;                ///< the crest is a single point
 };
+
+/// Of a path whose x rises, at x; level beyond its ends [m].
+double height_on(const Polyline& path, double x);
 
 /// Where the crest ends (see split_faces): its downstream and its upstream end, equal where the section ends in a point.
 std::pair<Point, Point> crest_ends(const Section& section);

@@ -80,7 +80,7 @@ struct ContactPlane {
         rock_distance; ///< of rock_line from the heel, along the plane; negative upstream of the heel [m]
 };
 
-/// A horizontal joint through the dam: its nodes exist twice, as those of the base do. Or an upright interface between two blocks of
+/// A horizontal joint through the dam, or the path of a crack: its nodes exist twice, as those of the base do. Or an upright interface between two blocks of
 /// rock on a seam, where "below" is upstream and "above" downstream.
 struct LiftPlane {
     std::vector<int> lower_nodes; ///< of the dam below, upstream to downstream; of an interface from the ground down
@@ -88,6 +88,7 @@ struct LiftPlane {
     std::vector<double> distance; ///< of these nodes from the upstream face, along the joint [m]
     double share = 1.0;           ///< of the width that is concrete [-]
     bool upright = false;         ///< an interface
+    bool bent = false;            ///< the path of a crack: each pair has its own direction
     double beyond = 0.0; ///< from the last pair on to the bend of the path, where three bodies meet and no pair is [m]
 };
 

@@ -1,5 +1,6 @@
 #include "fe2d/run/contact_planes.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -38,7 +39,18 @@ std::vector<char> connected(const Mesh& mesh, const std::vector<int>& start)
     return reached;
 }
 
-/// Directions of an inclined base.
+/// Directions of the pairs of a bent lift: the mean of the edges at each.
+void bend(const Mesh& mesh, const std::vector<int>& nodes, Plane& plane)
+{
+    const auto edge = [&](std::size_t i) {
+        const Point a = mesh.nodes[nodes[i]], b = mesh.nodes[nodes[i + 1]];
+        return Eigen::Vector2d(b.x - a.x, b.y - a.y).normalized();
+    };
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        plane.along.push_back((edge(std::max<std::size_t>(i, 1) - 1) + edge(std::min(i, nodes.size() - 2))).normalized());
+}
+
+/// Directions of an inclined base, mean ones of a bent lift.
 void turn(const Mesh& mesh, const std::vector<int>& nodes, Plane& plane)
 {
     const Point a = mesh.nodes[nodes.front()], b = mesh.nodes[nodes.back()];
@@ -61,7 +73,8 @@ ContactPlanes::ContactPlanes(const Mesh& mesh, BelowBase below)
     }
     for (const LiftPlane& lift : mesh.lifts) {
         planes_.push_back(plane_of(lift));
-        if (mesh.seam && planes_.size() == 2) turn(mesh, lift.lower_nodes, planes_.back()); // the base of the dam
+        if (lift.bent || (mesh.seam && planes_.size() == 2)) turn(mesh, lift.lower_nodes, planes_.back()); // or the base of the dam
+        if (lift.bent) bend(mesh, lift.lower_nodes, planes_.back());
         nodes_.insert(nodes_.end(), lift.upper_nodes.begin(), lift.upper_nodes.end());
         tie(lift.upper_nodes, lift.lower_nodes);
     }

@@ -17,6 +17,7 @@ struct Plane {
     Eigen::Vector2d tangent{1.0, 0.0}; ///< downstream
     std::vector<Eigen::Index> segments;   ///< first pair of each segment; empty: one
     std::vector<Eigen::Vector2d> turned;  ///< tangents of the segments
+    std::vector<Eigen::Vector2d> along;   ///< tangents of the pairs of a bent lift; empty: straight
     bool upright = false;                 ///< an interface: no weight rests on it
     Eigen::VectorXd distance;          ///< of the pairs from the heel along the plane [m]
     Eigen::VectorXd area; ///< of the base that belongs to a pair, length times share [m^2/m]
@@ -31,11 +32,12 @@ struct Plane {
     std::size_t segment_of(Eigen::Index pair) const;
     Eigen::Vector2d tangent_of(Eigen::Index pair) const
     {
+        if (!along.empty()) return along[static_cast<std::size_t>(pair)];
         return segments.empty() ? tangent : turned[segment_of(pair)];
     }
     Eigen::Vector2d normal_of(Eigen::Index pair) const
     {
-        if (segments.empty()) return normal;
+        if (segments.empty() && along.empty()) return normal;
         const Eigen::Vector2d t = tangent_of(pair);
         return {-t[1], t[0]};
     }

@@ -1,6 +1,7 @@
 #include "fe2d/run/crack_watch.hpp"
 
 #include "fe2d/element/elastic.hpp"
+#include "fe2d/mesh/faces.hpp"
 #include "fe2d/model/static_solution.hpp"
 #include "scene/joint_bond.hpp"
 #include "scene/section.hpp"
@@ -17,6 +18,7 @@ using Eigen::VectorXd;
 
 namespace {
 
+constexpr std::size_t most_paths = 4;
 constexpr double default_strength = 2e6; ///< of mass concrete, for ℓ_ch alone [Pa]
 constexpr double default_energy = 200.0; ///< the same [N/m]
 constexpr double near_strength = 0.25;   ///< index of a line from which on every step counts
@@ -47,20 +49,15 @@ double area_of(const Corners& c, int size)
     return 0.5 * twice;
 }
 
-/// σ₁ of (xx, yy, xy).
-double major(double xx, double yy, double xy)
-{
-    return 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
-}
-
 } // namespace
 
 bool CrackFigures::wakes() const
 {
-    return std::any_of(lifts.begin(), lifts.end(), [](const TiedLift& lift) { return lift.index >= wake_index; });
+    return cracks() || std::any_of(lifts.begin(), lifts.end(), [](const TiedLift& lift) { return lift.index >= wake_index; });
 }
 
-CrackLines::CrackLines(const Scene& scene, const ContactStructure& structure, double stiffness_damping)
+CrackLines::CrackLines(const Scene& scene, const ContactStructure& structure, double stiffness_damping,
+                       const std::vector<CrackStart>& begun)
     : stiffness_damping_(stiffness_damping)
 {
     const Mesh& mesh = structure.model().mesh;
@@ -68,7 +65,23 @@ CrackLines::CrackLines(const Scene& scene, const ContactStructure& structure, do
         none_yet_.lifts.push_back({scene.tied_lifts[k].name, scene.tied_lifts[k].elevation, 0.0, 0.0, 0.0});
         add_line(scene, structure, scene.tied_lifts[k], mesh.tied_lifts[k].lower_nodes);
     }
-    add_patches(scene, structure);
+    add_patches(scene, structure, begun);
+    add_paths(scene, structure);
+    if (scene.dam.crack != BodyCrack::traced) return;
+    if (paths_.size() < most_paths) none_yet_.strength = *scene.dam.tensile_strength;
+}
+
+/// ℓ_ch, at most a tenth of the height [m].
+double CrackLines::crack_length(const Scene& scene, const ContactStructure& structure) const
+{
+    const Model& model = structure.model();
+    const double strength = scene.dam.tensile_strength.value_or(default_strength);
+    const double nu = model.materials.dam.poisson_ratio;
+    const bool traced = scene.dam.crack == BodyCrack::traced;
+    double top = 0.0;
+    for (const int n : model.mesh.crest) top = std::max(top, model.mesh.nodes[static_cast<std::size_t>(n)].y);
+    return std::min(0.1 * top, characteristic_length(model.materials.dam.young_modulus / (1.0 - nu * nu),
+                                                     traced ? scene.dam.tension_energy : default_energy, strength));
 }
 
 void CrackLines::add_line(const Scene& scene, const ContactStructure& structure, const LiftJoint& lift,
@@ -161,17 +174,10 @@ double CrackLines::Line::index(const CrackLines& of, const VectorXd& u, const Ve
     return largest;
 }
 
-void CrackLines::add_patches(const Scene& scene, const ContactStructure& structure)
+void CrackLines::add_patches(const Scene& scene, const ContactStructure& structure, const std::vector<CrackStart>& begun)
 {
-    const Model& model = structure.model();
-    const Mesh& mesh = model.mesh;
-    const Eigen::Matrix3d d = plane_strain_matrix(model.materials.dam);
-    const double strength = scene.dam.tensile_strength.value_or(default_strength);
-    const double nu = model.materials.dam.poisson_ratio;
-    double top = 0.0;
-    for (const int n : mesh.crest) top = std::max(top, mesh.nodes[static_cast<std::size_t>(n)].y);
-    const double length = std::min(
-        0.1 * top, characteristic_length(model.materials.dam.young_modulus / (1.0 - nu * nu), default_energy, strength));
+    const Mesh& mesh = structure.model().mesh;
+    const double length = crack_length(scene, structure);
 
     enum : char { inside, face, line };
     std::vector<char> kind(mesh.nodes.size(), inside);
@@ -181,19 +187,20 @@ void CrackLines::add_patches(const Scene& scene, const ContactStructure& structu
     for (const auto* chain : {&mesh.upstream_face, &mesh.downstream_face, &mesh.crest}) mark(*chain, face);
     const std::vector<int>& base = mesh.seam ? mesh.seam->base : mesh.contact.dam_nodes;
     mark(base, line);
-    std::vector<double> levels;
+    std::vector<Polyline> lines;
     for (const std::vector<LiftPlane>* lifts : {&mesh.lifts, &mesh.tied_lifts})
         for (const LiftPlane& lift : *lifts) {
             mark(lift.lower_nodes, line);
             mark(lift.upper_nodes, line);
-            levels.push_back(mesh.nodes[static_cast<std::size_t>(lift.lower_nodes.front())].y);
+            Polyline& added = lines.emplace_back();
+            for (const int n : lift.lower_nodes) added.push_back(mesh.nodes[static_cast<std::size_t>(n)]);
         }
     const Point heel = mesh.nodes[static_cast<std::size_t>(base.front())],
                 toe = mesh.nodes[static_cast<std::size_t>(base.back())];
     const auto near_line = [&](const Point& p) {
         const double level = heel.y + (toe.y - heel.y) * (p.x - heel.x) / (toe.x - heel.x);
         return p.y - level < length ||
-               std::any_of(levels.begin(), levels.end(), [&](double y) { return std::abs(p.y - y) < length; });
+               std::any_of(lines.begin(), lines.end(), [&](const Polyline& l) { return std::abs(p.y - height_on(l, p.x)) < length; });
     };
 
     struct Piece {
@@ -225,46 +232,90 @@ void CrackLines::add_patches(const Scene& scene, const ContactStructure& structu
         const Piece& middle = *std::max_element(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
             return std::pair(a.face, a.area) < std::pair(b.face, b.area);
         });
-        std::vector<const Piece*> members;
-        double area = 0.0;
+        std::vector<int> members;
         for (long i = place.first - 1; i <= place.first + 1; ++i)
             for (long j = place.second - 1; j <= place.second + 1; ++j)
                 if (const auto found = grid.find({i, j}); found != grid.end())
                     for (const Piece& piece : found->second)
-                        if (std::hypot(piece.at.x - middle.at.x, piece.at.y - middle.at.y) <= cell) {
-                            members.push_back(&piece);
-                            area += piece.area;
-                        }
-        Columns columns;
-        for (const Piece* piece : members) {
-            const Element& element = mesh.elements[static_cast<std::size_t>(piece->element)];
-            const ElementNodes all = element.all();
-            const Corners c = corners(mesh, element);
-            const ExtraNodes extra = extra_nodes(element);
-            ElementVector unit = ElementVector::Zero(2 * all.count);
-            for (Index j = 0; j < unit.size(); ++j) {
-                unit.setZero();
-                unit[j] = piece->area / area;
-                const Eigen::Vector3d stress = centre_stress(c, element.size(), d, model.materials.kind, unit, extra);
-                const int node = structure.order().new_node[static_cast<std::size_t>(all[static_cast<int>(j) / 2])];
-                auto& to = columns[2 * node];
-                for (const Index row : {0, 1, 2}) to[static_cast<std::size_t>(2 * row + j % 2)] += stress[row];
-            }
-        }
-        Patch patch{{static_cast<int>(node_.size()), 0}, middle.at, middle.face};
-        for (const auto& [node, values] : columns) {
-            node_.push_back(node);
-            Block& block = block_.emplace_back();
-            std::copy(values.begin(), values.end(), block.m);
-        }
-        patch.stress.end = static_cast<int>(node_.size());
+                        if (std::hypot(piece.at.x - middle.at.x, piece.at.y - middle.at.y) <= cell)
+                            members.push_back(piece.element);
+        Patch patch = patch_about(structure, members, middle.at);
+        patch.on_face = middle.face;
+        patch.seeds = std::none_of(begun.begin(), begun.end(), [&](const CrackStart& crack) {
+            return std::hypot(crack.at.x - middle.at.x, crack.at.y - middle.at.y) < crack.reach;
+        });
         (patch.on_face ? patches_ : inner).push_back(patch);
     }
     on_face_ = patches_.size();
     patches_.insert(patches_.end(), inner.begin(), inner.end());
 }
 
-double CrackLines::tension_of(const Patch& patch, const VectorXd& u) const
+/// The mean stress of elements.
+CrackLines::Patch CrackLines::patch_about(const ContactStructure& structure, const std::vector<int>& elements, Point at)
+{
+    const Model& model = structure.model();
+    const Mesh& mesh = model.mesh;
+    const Eigen::Matrix3d d = plane_strain_matrix(model.materials.dam);
+    double area = 0.0;
+    for (const int e : elements) {
+        const Element& element = mesh.elements[static_cast<std::size_t>(e)];
+        area += area_of(corners(mesh, element), element.size());
+    }
+    Columns columns;
+    for (const int e : elements) {
+        const Element& element = mesh.elements[static_cast<std::size_t>(e)];
+        const ElementNodes all = element.all();
+        const Corners c = corners(mesh, element);
+        const ExtraNodes extra = extra_nodes(element);
+        const double own = area_of(c, element.size());
+        ElementVector unit = ElementVector::Zero(2 * all.count);
+        for (Index j = 0; j < unit.size(); ++j) {
+            unit.setZero();
+            unit[j] = own / area;
+            const Eigen::Vector3d stress = centre_stress(c, element.size(), d, model.materials.kind, unit, extra);
+            const int node = structure.order().new_node[static_cast<std::size_t>(all[static_cast<int>(j) / 2])];
+            auto& to = columns[2 * node];
+            for (const Index row : {0, 1, 2}) to[static_cast<std::size_t>(2 * row + j % 2)] += stress[row];
+        }
+    }
+    Patch patch{{static_cast<int>(node_.size()), 0}, at, false};
+    for (const auto& [node, values] : columns) {
+        node_.push_back(node);
+        Block& block = block_.emplace_back();
+        std::copy(values.begin(), values.end(), block.m);
+    }
+    patch.stress.end = static_cast<int>(node_.size());
+    return patch;
+}
+
+/// About each pair of a traced crack the elements within ℓ_ch/2, on both sides of it.
+void CrackLines::add_paths(const Scene& scene, const ContactStructure& structure)
+{
+    const Mesh& mesh = structure.model().mesh;
+    const double radius = 0.5 * crack_length(scene, structure);
+    for (std::size_t k = 0; k < scene.lift_joints.size(); ++k) {
+        if (scene.lift_joints[k].path.empty()) continue;
+        first_pair_.push_back(structure.planes().first(static_cast<Index>(k + 1)));
+        std::vector<Patch>& path = paths_.emplace_back();
+        std::vector<PathTension>& tensions = none_yet_.paths.emplace_back();
+        for (const int n : mesh.lifts[k].lower_nodes) {
+            const Point at = mesh.nodes[static_cast<std::size_t>(n)];
+            std::vector<int> members;
+            std::pair<double, int> nearest{std::numeric_limits<double>::infinity(), 0};
+            for (int e = 0; e < mesh.dam_element_count; ++e) {
+                const Point centre = centre_of(mesh, mesh.elements[static_cast<std::size_t>(e)]);
+                const double away = std::hypot(centre.x - at.x, centre.y - at.y);
+                if (away <= radius) members.push_back(e);
+                nearest = std::min(nearest, {away, e});
+            }
+            if (members.empty()) members.push_back(nearest.second);
+            path.push_back(patch_about(structure, members, at));
+            tensions.push_back({.at = at});
+        }
+    }
+}
+
+CrackLines::Tension CrackLines::tension_of(const Patch& patch, const VectorXd& u) const
 {
     double xx = 0.0, yy = 0.0, xy = 0.0;
     for (int k = patch.stress.begin; k < patch.stress.end; ++k) {
@@ -275,19 +326,48 @@ double CrackLines::tension_of(const Patch& patch, const VectorXd& u) const
         yy += m[2] * a + m[3] * b;
         xy += m[4] * a + m[5] * b;
     }
-    return major(xx, yy, xy);
+    // The crack runs along σ₂, a quarter turn from σ₁.
+    return {0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy), 0.5 * std::atan2(-2.0 * xy, yy - xx)};
 }
 
 void CrackWatch::look_at(const CrackLines::Patch& patch, double time, const VectorXd& u, CrackFigures& figures) const
 {
-    const double stress = lines_.tension_of(patch, u);
-    if (stress <= figures.stress) return;
-    figures.stress = stress;
+    const CrackLines::Tension now = lines_.tension_of(patch, u);
+    if (now.stress <= figures.stress) return;
+    figures.stress = now.stress;
+    figures.angle = now.angle;
     figures.time = time;
     figures.at = patch.at;
 }
 
-void CrackWatch::look(double time, const VectorXd& u, const VectorXd& v, CrackFigures& figures)
+bool CrackWatch::take(const CrackLines::Tension& now, double time, PathTension& largest)
+{
+    if (now.stress <= largest.stress) return false;
+    largest.stress = now.stress, largest.angle = now.angle, largest.time = time;
+    return true;
+}
+
+void CrackWatch::look_at_paths(double time, const VectorXd& u, const VectorXd* damage, CrackFigures& figures)
+{
+    before_.resize(lines_.paths_.size());
+    for (std::size_t k = 0; k < lines_.paths_.size(); ++k) {
+        before_[k].resize(lines_.paths_[k].size());
+        for (std::size_t i = 0; i < lines_.paths_[k].size(); ++i) {
+            PathTension& tension = figures.paths[k][i];
+            if (tension.damaged) continue;
+            CrackLines::Tension& before = before_[k][i];
+            if (damage && (*damage)[lines_.first_pair_[k] + static_cast<Index>(i)] > 0.0) {
+                tension.damaged = true;
+                tension.stress = before.stress, tension.angle = before.angle, tension.time = time;
+                continue;
+            }
+            before = lines_.tension_of(lines_.paths_[k][i], u);
+            take(before, time, tension);
+        }
+    }
+}
+
+void CrackWatch::look(double time, const VectorXd& u, const VectorXd& v, const VectorXd* damage, CrackFigures& figures)
 {
     figures.known = true;
     for (std::size_t k = 0; k < lines_.lines_.size(); ++k) {
@@ -300,13 +380,18 @@ void CrackWatch::look(double time, const VectorXd& u, const VectorXd& v, CrackFi
         lift.time = time;
         lift.distance = distance;
     }
+    look_at_paths(time, u, damage, figures);
     // Stresses about every 5 ms, whatever the step; the start and the first steps in any case.
     const long between = time > 0.0 ? std::max(1L, std::lround(stress_interval * static_cast<double>(steps_) / time)) : 1;
     const long looked = steps_ / between;
     if (steps_++ % between != 0) return;
     double on_face = 0.0;
-    for (std::size_t k = 0; k < lines_.on_face_; ++k)
-        on_face = std::max(on_face, lines_.tension_of(lines_.patches_[k], u));
+    for (std::size_t k = 0; k < lines_.on_face_; ++k) {
+        const CrackLines::Tension now = lines_.tension_of(lines_.patches_[k], u);
+        on_face = std::max(on_face, now.stress);
+        const CrackLines::Patch& patch = lines_.patches_[k];
+        if (patch.seeds && std::abs(std::tan(now.angle)) <= steepest_path && take(now, time, figures.seed)) figures.seed.at = patch.at;
+    }
     if (on_face > figures.stress || on_face > more_than_before * on_face_ || looked % patch_looks == 0)
         for (const CrackLines::Patch& patch : lines_.patches_) look_at(patch, time, u, figures);
     on_face_ = std::max(on_face_, on_face);

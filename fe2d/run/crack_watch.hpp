@@ -5,6 +5,7 @@
 #include "scene/scene.hpp"
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,19 +22,41 @@ struct TiedLift {
     double distance = 0.0;  ///< from the upstream face [m]
 };
 
+/// Where a crack goes: at each pair of the path of a traced crack σ₁ just before it was damaged; of one that is whole the largest.
+struct PathTension {
+    Point at;             ///< [m]
+    bool damaged = false; ///< the pair has come to its strength
+    double stress = 0.0;  ///< σ₁ about it, mean over a characteristic length [Pa]
+    double angle = 0.0;   ///< of a crack across σ₁, from the horizontal, rising downstream positive, -π/2 ... π/2 [rad]
+    double time = 0.0;    ///< [s]
+};
+
 /// The largest principal tension away from base, lift joints and tied lifts, and what tied lifts come to. Static state included.
 struct CrackFigures {
     std::vector<TiedLift> lifts; ///< in the order of Scene::tied_lifts
     double stress = 0.0;         ///< σ₁, mean over about a characteristic length, tension positive [Pa]
     double time = 0.0;           ///< [s]
     Point at;                    ///< [m]
+    double angle = 0.0;          ///< of a crack across it, as PathTension::angle [rad]
+    std::vector<std::vector<PathTension>> paths; ///< of the traced cracks, in the order of the lift joints
+    PathTension seed;            ///< on a face, across which a crack would not be steeper than steepest_path
+    double strength = std::numeric_limits<double>::infinity(); ///< f_t of concrete whose cracks are traced, while more may come [Pa]
     bool known = false;          ///< a run in time steps was watched
 
-    bool wakes() const; ///< has a tied lift reached wake_index?
+    bool cracks() const { return seed.stress >= strength; } ///< a face away from all lines
+    bool wakes() const; ///< has a tied lift reached wake_index, or concrete its strength? Then another model has one more line
 };
+
+inline constexpr double steepest_path = 1.0; ///< tangent of a path that rows of elements can follow
 
 /// Index from which on a tied lift is a joint in another run: below 1, so that nothing of it would have moved.
 inline constexpr double wake_index = 0.8;
+
+/// Where a traced crack has begun on a face: it relieves the face, no other begins within its reach.
+struct CrackStart {
+    Point at;
+    double reach = 0.0; ///< [m]
+};
 
 /// Linear functionals of the dam's displacements, made once for a structure.
 ///
@@ -47,7 +70,8 @@ inline constexpr double wake_index = 0.8;
 /// ℓ_ch of a line, where a tip is singular and the line has a law of its own, and elements with a node on one.
 class CrackLines {
 public:
-    CrackLines(const Scene& scene, const ContactStructure& structure, double stiffness_damping);
+    CrackLines(const Scene& scene, const ContactStructure& structure, double stiffness_damping,
+               const std::vector<CrackStart>& begun = {});
 
     CrackFigures none_yet() const { return none_yet_; }
 
@@ -72,19 +96,28 @@ private:
         Row stress;
         Point at;
         bool on_face = false;
+        bool seeds = true; ///< no crack has begun next to it
+    };
+    struct Tension {
+        double stress = 0.0, angle = 0.0;
     };
     struct Block {
         double m[6]; ///< two or three rows by two columns
     };
     void add_line(const Scene& scene, const ContactStructure& structure, const LiftJoint& lift,
                   const std::vector<int>& nodes);
-    void add_patches(const Scene& scene, const ContactStructure& structure);
-    double tension_of(const Patch& patch, const Eigen::VectorXd& u) const;
+    void add_patches(const Scene& scene, const ContactStructure& structure, const std::vector<CrackStart>& begun);
+    void add_paths(const Scene& scene, const ContactStructure& structure);
+    double crack_length(const Scene& scene, const ContactStructure& structure) const;
+    Patch patch_about(const ContactStructure& structure, const std::vector<int>& elements, Point at);
+    Tension tension_of(const Patch& patch, const Eigen::VectorXd& u) const;
 
     std::vector<int> node_;   ///< first unknown of a node
     std::vector<Block> block_;
     std::vector<Line> lines_;
     std::vector<Patch> patches_; ///< those on the faces first
+    std::vector<std::vector<Patch>> paths_; ///< about the pairs of the traced cracks
+    std::vector<Eigen::Index> first_pair_;         ///< of each of them, among those of the structure
     std::size_t on_face_ = 0;
     CrackFigures none_yet_;
     double stiffness_damping_;
@@ -95,13 +128,18 @@ private:
 class CrackWatch {
 public:
     explicit CrackWatch(const CrackLines& lines) : lines_(lines), last_(lines.lines_.size(), 1.0) {}
-    void look(double time, const Eigen::VectorXd& u, const Eigen::VectorXd& v, CrackFigures& figures);
+    /// @param damage  of all pairs' bonds; null: there are none
+    void look(double time, const Eigen::VectorXd& u, const Eigen::VectorXd& v, const Eigen::VectorXd* damage,
+              CrackFigures& figures);
 
 private:
+    static bool take(const CrackLines::Tension& now, double time, PathTension& largest);
+    void look_at_paths(double time, const Eigen::VectorXd& u, const Eigen::VectorXd* damage, CrackFigures& figures);
     void look_at(const CrackLines::Patch& patch, double time, const Eigen::VectorXd& u, CrackFigures& figures) const;
 
     const CrackLines& lines_;
     std::vector<double> last_; ///< index of each line when it was looked at
+    std::vector<std::vector<CrackLines::Tension>> before_; ///< of the paths, a step before
     double on_face_ = 0.0;     ///< largest so far [Pa]
     long steps_ = 0;
 };

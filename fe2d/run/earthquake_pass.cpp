@@ -1,5 +1,6 @@
 #include "fe2d/run/earthquake_pass.hpp"
 
+#include "fe2d/contact/bond_law.hpp"
 #include "fe2d/run/base_water.hpp"
 
 #include <algorithm>
@@ -71,7 +72,8 @@ void EarthquakePass::after_step()
 void EarthquakePass::look_for_cracks()
 {
     const DynamicState& now = dynamics_.state();
-    cracks_.look(begin_ + now.time, now.u, now.v, result_.cracks);
+    const auto* bond = now.contact.laws.find<BondLaw>();
+    cracks_.look(begin_ + now.time, now.u, now.v, bond ? &bond->damage() : nullptr, result_.cracks);
 }
 
 void EarthquakePass::add_row()

@@ -134,7 +134,7 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options) : scene_(sc
     part_done();
     if (usable_) {
         statics_ = std::make_shared<const StaticOperator>(*structure_);
-        cracks_.emplace(scene_, in_motion(), damping_.constants.stiffness);
+        cracks_.emplace(scene_, in_motion(), damping_.constants.stiffness, options_.crack_starts);
         part_done();
         if (explicit_steps)
             explicit_ = explicit_operators();

@@ -55,7 +55,8 @@ struct RunOptions {
     /// Asked after every step of the record; empty: none. Steps count sub-steps of all passes of the chosen halvings,
     /// as far as they are known. Runs that go on in parallel call it from their own threads.
     std::function<RunAnswer(const RunProgress&)> progress;
-    bool ends_when_lifts_wake = false; ///< as interrupted, once a tied lift has reached wake_index
+    bool ends_when_lifts_wake = false; ///< as interrupted, once a tied lift has reached wake_index, or a face f_t where cracks are traced
+    std::vector<CrackStart> crack_starts = {}; ///< of the traced cracks
     StopAsked stop;                                  ///< asked between the parts of the set-up
     std::function<void(int unknowns)> reducing_rock; ///< RadiatingRockInput::reducing; empty: no call
 };

@@ -322,7 +322,7 @@ RunResult EarthquakeRun::shake_explicitly(int halvings, const BatchedRun& batche
     CrackWatch cracks(*cracks_);
     const auto look = [&] {
         watch.add(probe.instant(dynamics, strength.law()));
-        cracks.look(dynamics.state().time, dynamics.state().u, dynamics.state().v, result.cracks);
+        cracks.look(dynamics.state().time, dynamics.state().u, dynamics.state().v, nullptr, result.cracks);
     };
     const auto add_row = [&] {
         recorder.add();

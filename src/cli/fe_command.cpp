@@ -108,7 +108,7 @@ int run_contact(const FeArguments& arguments, const Ready& prepared, const Spect
     const Ready& ready = all.ready();
     const fe2d::EarthquakeRun& model = all.model();
     const FeReport::Input shared{ready.scene, ready.plan, ready.records(), model, all.rigid(), all.uplift(),
-                                 all.combinations(), arguments.reduced};
+                                 all.combinations(), arguments.reduced, all.traced()};
     FieldSeries fields(arguments.out, model.model());
     std::optional<FeReport> page;
     if (arguments.reports()) page.emplace(shared);

@@ -26,7 +26,7 @@ struct FeResult final : Result {
     pages::FeReport::Input input() const
     {
         return {ready.scene, ready.plan, ready.records(), models->model(), models->rigid(), models->uplift(),
-                models->combinations(), models->reduced()};
+                models->combinations(), models->reduced(), models->traced()};
     }
     const std::optional<double>& allowable() const { return ready.scene.criteria.allowable_slip; }
 

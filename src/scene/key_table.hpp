@@ -155,6 +155,7 @@ inline const Units density{{"kg_m3", 1.0}, {"t_m3", 1000.0}};
 inline const Units modulus{{"GPa", 1e9}, {"MPa", 1e6}, {"Pa", 1.0}};
 inline const Units bulk{{"MPa", 1e6}, {"GPa", 1e9}, {"Pa", 1.0}};
 inline const Units stress{{"kPa", 1e3}, {"MPa", 1e6}, {"Pa", 1.0}};
+inline const Units surface_energy{{"N_m", 1.0}, {"J_m2", 1.0}, {"kN_m", 1e3}};
 inline const Units line_force{{"kN_m", 1e3}, {"MN_m", 1e6}, {"N_m", 1.0}};
 inline const Units unit_weight{{"kN_m3", 1e3}, {"N_m3", 1.0}};
 inline const Units conductivity{{"m_s", 1.0}, {"cm_s", 0.01}};

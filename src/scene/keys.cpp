@@ -13,6 +13,7 @@ namespace damslip {
 std::vector<KeyGroup> key_groups(SectionInput& section)
 {
     using namespace keys;
+    const auto traced = [](const Material& dam) { return dam.crack == BodyCrack::traced; };
     std::vector<KeyGroup> groups;
     groups.push_back({"",
                       Presence::always,
@@ -44,7 +45,19 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
          number("tensile_strength", {{"MPa", 1e6}, {"kPa", 1e3}, {"Pa", 1.0}}, Range::above(0), "none: `fe` gives the largest stress itself",
                 "of the concrete, against which `fe` holds the largest tension away from all joints; mass concrete has 1.5 to "
                 "3 MPa (Raphael 1984)",
-                "2.5", at(&Material::tensile_strength))}));
+                "2.5", at(&Material::tensile_strength)),
+         word("crack", "none",
+              "none: the concrete stays whole, and `fe` says where it would crack; traced: `fe` follows cracks from the faces on paths "
+              "of their own (tensile_strength is required)",
+              "\"traced\"",
+              choice(&Material::crack, std::vector<std::pair<std::string, BodyCrack>>{{"none", BodyCrack::none},
+                                                                                      {"traced", BodyCrack::traced}})),
+         only_where<Material>(traced, number("crack_friction", none, Range::half_open(0, 10), "1", "friction of a crack", "1.0",
+                                             at(&Material::crack_friction))),
+         only_where<Material>(traced, number("fracture_energy_tension", surface_energy, Range::above(0), "200",
+                                             "G_I of the concrete", "200", at(&Material::tension_energy))),
+         only_where<Material>(traced, number("fracture_energy_shear", surface_energy, Range::above(0), "2000",
+                                             "G_II of the concrete", "2000", at(&Material::shear_energy)))}));
     append(base_groups());
     append(water_groups());
     using F = PointForce;
@@ -138,6 +151,7 @@ constexpr std::array rows{
     Row{"wedge", rigid | equilibrium | regressions}, Row{"wedge.plane", rigid | equilibrium | regressions},
     Row{"wedge.force", rigid | equilibrium | regressions},
     Row{"dam", model}, Row{"dam.density", all}, Row{"dam.tensile_strength", fe},
+    Row{"dam.crack", fe}, Row{"dam.crack_friction", fe}, Row{"dam.fracture_energy_tension", fe}, Row{"dam.fracture_energy_shear", fe},
 
     Row{"contact", slips}, Row{"contact.friction", statics}, Row{"contact.cohesion", statics},
     Row{"contact.cohesion_lost_at_slip", slips | equilibrium}, Row{"contact.residual_friction", slips | equilibrium},

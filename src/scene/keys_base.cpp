@@ -241,7 +241,6 @@ std::vector<KeyGroup> base_groups()
 namespace {
 
 const Units area_per_metre{{"m2_m", 1.0}, {"mm2_m", 1e-6}};
-const Units surface_energy{{"N_m", 1.0}, {"J_m2", 1.0}, {"kN_m", 1e3}};
 const Units velocity{{"m_s", 1.0}, {"mm_s", 1e-3}};
 const Units viscosity{{"Pa_s", 1.0}, {"mPa_s", 1e-3}};
 const Units pressure{{"kPa", 1e3}, {"MPa", 1e6}, {"Pa", 1.0}};

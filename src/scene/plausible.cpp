@@ -379,6 +379,9 @@ constexpr std::array rows{
     Row{"dam.young_modulus", 10, 50, "ACI 207.1R"},
     Row{"dam.poisson_ratio", 0.1, 0.3, "ACI 207.1R"},
     Row{"dam.tensile_strength", 0.5, 5, "Raphael 1984"},
+    Row{"dam.crack_friction", 0.5, 1.6, judgement},
+    Row{"dam.fracture_energy_tension", 10, 500, "Bazant & Oh 1983"},
+    Row{"dam.fracture_energy_shear", 50, 20000, judgement},
 
     Row{"contact.friction", 0.1, 1.6, joints},
     Row{"contact.cohesion", 1, 3000, bond, true},

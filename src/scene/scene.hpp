@@ -28,12 +28,17 @@ struct Section {
     Polyline thickness = {};
 };
 
+enum class BodyCrack { none, traced }; ///< FE: the concrete stays whole; cracks are followed where it would crack
+
 /// Linear elastic, plane strain.
 struct Material {
     double density = 0.0;                ///< [kg/m^3]; 0: massless
     std::optional<double> young_modulus; ///< [Pa]; needed by FE commands only
     double poisson_ratio = 0.2;          ///< [-]
     std::optional<double> tensile_strength = {}; ///< of the dam's concrete, for what FE runs say of cracks [Pa]
+    BodyCrack crack = BodyCrack::none;           ///< of the dam's concrete
+    double crack_friction = 1.0;                 ///< μ of a traced crack [-]
+    double tension_energy = 200.0, shear_energy = 2000.0; ///< G_I, G_II of a traced crack [N/m]
 };
 
 enum class RockMass { massless, with_mass }; ///< does the rock move with inertia, or only give way
@@ -206,6 +211,7 @@ struct LiftJoint {
                       ///< defaults, [contact] says them for all planes
     JointWater water = JointWater::none;
     std::vector<Point> pressures = {}; ///< of a lift of [lifts]: x = from the upstream face [m], y = of its water [Pa]
+    Polyline path = {}; ///< of a traced crack, x rising from the upstream to the downstream face; empty: level at `elevation`
 };
 
 enum class LiftUplift { none, linear, drains };

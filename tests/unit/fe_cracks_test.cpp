@@ -5,6 +5,7 @@
 #include "fe2d/run/step_parts.hpp"
 #include "fe2d/assembly/assemble.hpp"
 #include "fe2d/mesh/build_mesh.hpp"
+#include "fe2d/mesh/faces.hpp"
 #include "pages/fe/fe_pages.hpp"
 #include "scene/read.hpp"
 #include "source_dir.hpp"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 namespace {
@@ -247,7 +249,7 @@ TEST(Cracks, CutTheNeckOfKoynaOnTwoMeshes)
     };
     const fe2d::RunResult coarse = run_on("3"), fine = run_on("1.6");
     for (const fe2d::RunResult* run : {&coarse, &fine}) {
-        ASSERT_EQ(run->status, Status::at_rest) << run->message;
+        ASSERT_EQ(run->status, Status::at_rest) << text_of(run->notes);
         EXPECT_EQ(run->counts.unresolved, 0);
         EXPECT_LT(run->energy_error, 1e-9);
         ASSERT_EQ(run->lifts.size(), 1u);
@@ -261,6 +263,116 @@ TEST(Cracks, CutTheNeckOfKoynaOnTwoMeshes)
     const double depth = fine.lifts.front().bond.damaged;
     EXPECT_NEAR(coarse.lifts.front().bond.damaged, depth, 0.15 * depth);
     EXPECT_NEAR(first(coarse, 0.0), first(fine, 0.0), 0.02);
+}
+
+const char* column = "[section]\npolygon_m = [[0, 0], [10, 0], [10, 20], [0, 20]]\n"
+                     "[dam]\ndensity_kg_m3 = 2000\nyoung_modulus_GPa = 20\n[contact]\nfriction = 2\n"
+                     "[mesh]\nsize_m = 1\ncontact_size_m = 1\n[time]\nsubsteps = 0\n";
+
+/// A line from face to face that bends: its nodes lie on it, rows bend with it, and no concrete is lost.
+TEST(TracedCracks, BendTheRowsOfTheMesh)
+{
+    Scene scene = ready_of(column).scene;
+    const Polyline path{{0.0, 12.0}, {4.0, 11.0}, {7.0, 8.0}, {10.0, 7.5}};
+    scene.lift_joints.push_back({"crack 1", 12.0, {}, {}, {}, path});
+    const fe2d::EarthquakeRun model(scene, {});
+    const fe2d::Mesh& mesh = model.model().mesh;
+    ASSERT_EQ(mesh.lifts.size(), 1u);
+    double length = 0.0;
+    const std::vector<int>& nodes = mesh.lifts[0].lower_nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const Point at = mesh.nodes[static_cast<std::size_t>(nodes[i])];
+        EXPECT_NEAR(at.y, fe2d::height_on(path, at.x), 1e-12);
+        if (i > 0) {
+            const Point before = mesh.nodes[static_cast<std::size_t>(nodes[i - 1])];
+            length += std::hypot(at.x - before.x, at.y - before.y);
+        }
+    }
+    const fe2d::Plane& plane = model.structure().planes()[1];
+    EXPECT_NEAR(plane.area.sum(), length, 1e-12 * length);
+    for (Eigen::Index i = 0; i < plane.pairs(); ++i) {
+        EXPECT_NEAR(plane.normal_of(i).dot(plane.tangent_of(i)), 0.0, 1e-15);
+        EXPECT_GT(plane.normal_of(i).y(), 0.5);
+    }
+    EXPECT_NEAR(model.model().total_mass.x(), 2000.0 * 200.0, 1e-6);
+}
+
+/// A cut that falls downstream holds what is above it with the tangent of its dip, no less.
+TEST(TracedCracks, ASlopingCutNeedsTheTangentOfItsDip)
+{
+    Scene scene = ready_of(column).scene;
+    GroundMotion still;
+    still.dt = 0.01;
+    still.accel_h.assign(3, 0.0);
+    for (const double friction : {0.39, 0.41}) {
+        scene.lift_joints = {{"crack 1", 12.0, {}, {}, {}, Polyline{{0.0, 12.0}, {10.0, 8.0}}}};
+        scene.lift_joints.front().strength.friction = friction;
+        const fe2d::RunResult run = fe2d::EarthquakeRun(scene, {}).run(still);
+        ASSERT_FALSE(run.stages.empty());
+        ASSERT_EQ(run.stages.back().lifts.size(), 1u);
+        EXPECT_NEAR(run.stages.back().lifts.front().critical_friction, 0.4, 1e-9);
+        EXPECT_EQ(run.stages.back().status, friction < 0.4 ? fe2d::StageStatus::slides : fe2d::StageStatus::ok);
+    }
+}
+
+/// Koyna's section without lifts: the crack begins at the bend of the downstream face, finds its path and cuts the neck.
+TEST(TracedCracks, CutTheNeckOfKoyna)
+{
+    const auto traced = [](const std::string& size) {
+        const std::string data = std::string(source_dir()) + "/records/data/ec8_3.0_";
+        const Ready ready = ready_of(
+            "[section]\npolygon_m = [[0, 0], [70, 0], [19.25, 66.5], [14.8, 103], [0, 103]]\n"
+            "[dam]\ndensity_kg_m3 = 2643\nyoung_modulus_GPa = 31\ntensile_strength_MPa = 2.4\ncrack = \"traced\"\n"
+            "[contact]\nfriction = 1\n"
+            "[reservoir]\nlevel_m = 90.5\nmodel = \"added-mass\"\n[uplift]\nmodel = \"none\"\n"
+            "[time]\nsubsteps = 0\n[mesh]\nsize_m = " + size +
+            "\n[motion]\nscale_to_pga_m_s2 = 4.61\npolarity = 1\n"
+            "[[motion.record]]\nname = \"a\"\nhorizontal = \"" + data + "h.csv\"\nvertical = \"" + data + "v.csv\"\n");
+        Watch nobody;
+        FeOptions options;
+        options.mesh_error = false;
+        auto all = std::make_unique<ContactRuns>(ready, options, nobody);
+        fe2d::RunResult run = std::move(all->run().front().fe);
+        return std::pair(std::move(all), std::move(run));
+    };
+    const auto [coarse, run] = traced("3");
+    ASSERT_GE(coarse->traced().size(), 1u);
+    const TracedCrack& neck = coarse->traced().front();
+    EXPECT_FALSE(neck.from_upstream);
+    EXPECT_NEAR(neck.start, 66.0, 3.0);
+    EXPECT_TRUE(neck.settled) << neck.passes << " passes, moved by " << neck.change;
+    EXPECT_EQ(run.status, Status::at_rest) << text_of(run.notes);
+    EXPECT_EQ(run.counts.unresolved, 0);
+    EXPECT_LT(run.energy_error, 1e-9);
+    const auto [fine, again] = traced("1.6");
+    ASSERT_GE(fine->traced().size(), 1u);
+    EXPECT_NEAR(fine->traced().front().start, neck.start, 1.5);
+    const auto path = [](const ContactRuns& of, const TracedCrack& crack) {
+        for (const LiftJoint& joint : of.ready().scene.lift_joints)
+            if (joint.name == crack.name) return joint.path;
+        return Polyline();
+    };
+    const Polyline a = path(*coarse, neck), b = path(*fine, fine->traced().front());
+    ASSERT_GE(a.size(), 2u);
+    ASSERT_GE(b.size(), 2u);
+    EXPECT_NEAR(a.front().y, b.front().y, 3.0); // where it comes out of the upstream face
+}
+
+/// What traced cracks need, and what they do not go with.
+TEST(TracedCracks, SayWhatTheyNeed)
+{
+    const auto said = [](const std::string& more) -> std::string {
+        try {
+            ready_of(std::string("[section]\npolygon_m = [[0, 0], [10, 0], [10, 20], [0, 20]]\n[contact]\nfriction = 2\n") +
+                     "[dam]\ndensity_kg_m3 = 2000\nyoung_modulus_GPa = 20\ncrack = \"traced\"\n" + more);
+        } catch (const InputError& error) {
+            return error.diagnostics().front().problem + error.diagnostics().front().fix;
+        }
+        return "";
+    };
+    EXPECT_NE(said("").find("add  tensile_strength_MPa"), std::string::npos);
+    EXPECT_EQ(said("tensile_strength_MPa = 2\n"), "");
+    EXPECT_NE(said("tensile_strength_MPa = 2\n[time]\nscheme = \"central-difference\"\n").find("hht"), std::string::npos);
 }
 
 /// Strength halfway below the stress: the answer says so, and PASS is no plain one.

@@ -70,7 +70,8 @@ ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& wa
 /// Runs every record on the model in which no more lifts wake.
 void ContactRuns::wake_lifts()
 {
-    if (ready_.scene.tied_lifts.empty() || options_.start || reduced_) return;
+    const bool traced = ready_.scene.dam.crack == BodyCrack::traced;
+    if ((ready_.scene.tied_lifts.empty() && !traced) || options_.start || reduced_) return;
     found_.resize(ready_.records().size());
     for (bool woken = true; woken;) {
         woken = false;
@@ -83,7 +84,7 @@ void ContactRuns::wake_lifts()
                 parallel_for(motions.size(), jobs_,
                              [&](std::size_t i) { found.runs[i] = model_->run(motions[i]); });
                 if (watch_.stop_asked()) return;
-                woken = wake(found.runs) || woken;
+                woken = wake(found.runs) || draw_anew(found.runs) || crack(found.runs) || woken;
             }
         }
     }
@@ -102,11 +103,59 @@ bool ContactRuns::wake(const std::vector<fe2d::RunResult>& runs)
             if (lift.index >= std::max(fe2d::wake_index, about * largest)) names.push_back(lift.name);
     }
     if (names.empty()) return false;
-    ++passes_to_wake_;
-    ready_.scene = with_awake_lifts(std::move(ready_.scene), names);
-    watch_.phase(fmt::format("awake lifts: {}, model {}", ready_.scene.lift_joints.size(), passes_to_wake_ + 1));
-    model_.emplace(ready_.scene, options_);
+    const Scene before = ready_.scene;
+    ready_.scene = with_awake_lifts(before, names);
+    make_model(fmt::format("awake lifts: {}", ready_.scene.lift_joints.size()), before);
     return true;
+}
+
+/// A line where the concrete came to its strength first. @returns whether it did
+bool ContactRuns::crack(const std::vector<fe2d::RunResult>& runs)
+{
+    const fe2d::RunResult* first = nullptr;
+    for (const fe2d::RunResult& run : runs)
+        if (run.cracks.cracks() && (!first || run.cracks.seed.time < first->cracks.seed.time)) first = &run;
+    if (!first) return false;
+    const Scene before = ready_.scene;
+    ready_.scene = with_traced_crack(before, *first, traced_);
+    make_model(traced_.back().name + " begins", before);
+    return true;
+}
+
+/// Paths of cracks that have not settled. @returns whether one has moved
+bool ContactRuns::draw_anew(const std::vector<fe2d::RunResult>& found)
+{
+    std::vector<const fe2d::RunResult*> runs;
+    for (const fe2d::RunResult& run : found) runs.push_back(&run);
+    const Scene before = ready_.scene;
+    if (traced_.empty() || ready_.scene.dam.crack != BodyCrack::traced || watch_.stop_asked() || !draw_paths_anew(ready_.scene, runs, traced_)) return false;
+    make_model("paths of cracks drawn anew", before);
+    return true;
+}
+
+/// Where no mesh follows the path of a crack, the lines of before stay: no path is drawn anew any more, and where the line was new no
+/// more are traced.
+void ContactRuns::make_model(const std::string& what, const Scene& before)
+{
+    ++passes_to_wake_;
+    watch_.phase(fmt::format("{}, model {}", what, passes_to_wake_ + 1));
+    options_.crack_starts = starts_of(ready_.scene, traced_);
+    try {
+        model_.emplace(ready_.scene, options_);
+    } catch (const InputError&) {
+        if (traced_.empty()) throw;
+        const bool drawn = before.lift_joints.size() == ready_.scene.lift_joints.size();
+        ready_.scene = before;
+        ready_.scene.dam.crack = drawn ? BodyCrack::traced : BodyCrack::none;
+        std::erase_if(traced_, [&](const TracedCrack& crack) {
+            return std::none_of(before.lift_joints.begin(), before.lift_joints.end(),
+                                [&](const LiftJoint& joint) { return joint.name == crack.name; });
+        });
+        for (TracedCrack& crack : traced_)
+            if (!crack.settled) crack.passes = most_path_passes;
+        options_.crack_starts = starts_of(ready_.scene, traced_);
+        model_.emplace(ready_.scene, options_);
+    }
 }
 
 std::size_t ContactRuns::whole() const

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/fe/contact_run.hpp"
+#include "analysis/fe/traced_cracks.hpp"
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/reducible.hpp"
 #include "core/watch.hpp"
@@ -65,6 +66,9 @@ struct FeOptions {
 /// their bond asks for), and the run begins anew from t = 0, until no run of any record wakes another. What slept has then
 /// stayed below its strength, so as a joint it would not have moved; what was found before is run again on the last model.
 ///
+/// Traced cracks (`dam.crack`) come the same way: where concrete comes to its strength a run ends and the next one has a line
+/// there; once nothing new cracks, paths are drawn anew and run again until they stay.
+///
 /// On few modes of the dam (FeOptions::reduced) static stages are those of the whole dam; no lift wakes, and no run is compared.
 class ContactRuns {
 public:
@@ -74,6 +78,7 @@ public:
 
     const Ready& ready() const { return ready_; } ///< as given; its lifts that have woken are lift joints
     std::size_t passes_to_wake() const { return passes_to_wake_; } ///< models that a run left because lifts woke
+    const std::vector<TracedCrack>& traced() const { return traced_; } ///< in the order in which they began
     const fe2d::EarthquakeRun& model() const { return *model_; }
     /// Why no run has an answer, a sentence; empty: there is a model.
     bool reduced() const { return reduced_.has_value(); } ///< on few modes of the dam
@@ -98,6 +103,9 @@ private:
     void run(const GroundMotion& motion, ContactRun& r);
     void wake_lifts();
     bool wake(const std::vector<fe2d::RunResult>& runs);
+    bool crack(const std::vector<fe2d::RunResult>& runs);
+    bool draw_anew(const std::vector<fe2d::RunResult>& found);
+    void make_model(const std::string& what, const Scene& before);
 
     /// What a run of one record and polarity has come to while lifts were waking.
     struct Found {
@@ -118,6 +126,7 @@ private:
     std::vector<sliding::Equilibrium> combinations_;
     std::vector<Found> found_; ///< by record; empty: no lift can wake
     std::size_t passes_to_wake_ = 0;
+    std::vector<TracedCrack> traced_;
 };
 
 /// Groups of runs, each of one model and one motion, that threads take one after the other. With a model whose runs gain by going in

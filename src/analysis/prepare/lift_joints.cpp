@@ -30,6 +30,27 @@ LiftJoint made_lift(const Scene& scene, double elevation)
 
 } // namespace
 
+void check_traced(const Scene& scene)
+{
+    if (scene.dam.crack != BodyCrack::traced) return;
+    const auto refuse_with = [&](bool wrong, const char* problem, const char* expected, const char* fix) {
+        if (wrong) refuse(scene.file, std::string("dam.crack = \"traced\" ") + problem, expected, fix);
+    };
+    refuse_with(!scene.dam.tensile_strength, "without dam.tensile_strength_MPa.", "the strength of the concrete",
+                "add  tensile_strength_MPa = 2.0  to [dam]");
+    refuse_with(scene.mesh.file.has_value(), "with mesh.file: the mesh is made anew along each path.",
+                "the mesh of the program", "delete  file  in [mesh], or write  crack = \"none\"");
+    refuse_with(scene.seam_body.has_value(), "on a seam.", "a dam on its base", "run without --plane");
+    refuse_with(!scene.section.thickness.empty(), "with section.thickness.", "a section of one thickness",
+                "write  crack = \"none\"  in [dam]");
+    refuse_with(scene.contact.sliding == JointPath::finite, "with contact.sliding = \"finite\".",
+                "sliding = \"small\" where the dam has joints", "write  sliding = \"small\"  in [contact]");
+    refuse_with(scene.time.scheme == TimeScheme::central_difference, "with time.scheme = \"central-difference\".",
+                "scheme = \"hht\"", "write  scheme = \"hht\"  in [time]");
+    refuse_with(!scene.motion.sequence.empty(), "with a sequence.", "each record by itself",
+                "write  crack = \"none\"  in [dam]");
+}
+
 Scene with_joints_of_lifts(Scene scene)
 {
     if (!scene.lifts || scene.mesh.file) return scene;

@@ -13,6 +13,9 @@ namespace damslip {
 /// @throws InputError  where other keys do not go with lift joints
 Scene with_joints_of_lifts(Scene scene);
 
+/// @throws InputError where other keys do not go with traced cracks (`dam.crack`), or f_t is missing
+void check_traced(const Scene& scene);
+
 /// The scene in which the tied lifts of these names are lift joints.
 Scene with_awake_lifts(Scene scene, const std::vector<std::string>& names);
 

@@ -213,8 +213,17 @@ Ready prepare(Scene given, Method method, Records records, const PrepareOptions&
     ready.seepage = options.seepage ? options.seepage : std::make_shared<SeepageSource>();
     ready.statics = options.statics;
     if (records) given.motion.records = files_of(*records);
-    if (options.joints_of_lifts) given = with_joints_of_lifts(std::move(given));
-    if (method == Method::finite_elements) given = with_seam_body(std::move(given));
+    if (options.joints_of_lifts)
+        given = with_joints_of_lifts(std::move(given));
+    else if (method == Method::finite_elements && given.dam.crack == BodyCrack::traced) {
+        given.dam.crack = BodyCrack::none;
+        given.notes.push_back({given.file.string(), 0, 0, "dam.crack = \"traced\" is left out: the concrete stays whole here.",
+                               "damslip fe, assess or Python", "run  damslip fe"});
+    }
+    if (method == Method::finite_elements) {
+        given = with_seam_body(std::move(given));
+        check_traced(given);
+    }
     ready.pairs = records ? std::move(records) : std::make_shared<const std::vector<RecordPair>>();
     if (options.flexible_modes) ready.flexible_modes = resolve_flexible_modes(given);
     note_not_honoured(given, method == Method::finite_elements

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 #include <ranges>
 #include <string_view>
 #include <utility>
@@ -215,6 +216,7 @@ std::vector<ContactColumn> crack_columns()
             {{"tension_x_m", "x", "m", 4}, of_cracks([](const F& f) { return f.at.x; })},
             {{"tension_y_m", "y", "m", 4}, of_cracks([](const F& f) { return f.at.y; })},
             {{"tension_time_s", "at", "s", 4}, of_cracks([](const F& f) { return f.time; })},
+            {{"crack_dip_deg", "dip of a crack", "deg", 3}, of_cracks([](const F& f) { return -180.0 / std::numbers::pi * f.angle; })},
             {{"tied_lift", "tied lift"}, of_lift([](const fe2d::TiedLift& lift) { return Cell(lift.name); })},
             {{"tied_lift_index", "its index", "–", 3}, of_lift([](const fe2d::TiedLift& lift) { return Cell(lift.index); })},
             {{"tied_lift_x_m", "from its upstream end", "m", 4},
@@ -272,7 +274,7 @@ Table crack_table(const std::vector<ContactRun>& runs)
     if (!tied) columns.resize(columns.size() - tied_lift_columns);
     std::vector<std::string> notes{
         "σ₁: largest principal tension away from base, joints and lifts, static state included, mean over about a "
-        "characteristic length or over the element, whichever is larger."};
+        "characteristic length or over the element, whichever is larger. Dip of a crack across it: positive where it falls downstream."};
     if (tied) notes.push_back("tied lift: the one that comes nearest to its strength, 1 where it would slip or part.");
     return table_of<ContactRun>("Where the concrete comes nearest to cracking", columns,
                                 runs | std::views::filter([](const ContactRun& r) { return r.fe.cracks.known; }), notes);
@@ -291,8 +293,8 @@ std::string crack_sentence(const std::vector<ContactRun>& runs)
     const ContactRun* most = most_tensioned(runs);
     if (!most || std::none_of(runs.begin(), runs.end(), would_crack)) return {};
     if (!would_crack(*most)) return " A tied lift would slip or part: see the table of cracking.";
-    return fmt::format(" The concrete would crack here: {}{}, where the model has no joint; run  fe  with a bonded "
-                       "[[lift_joint]] at elevation_m = {:.3g}, or [lifts].",
+    return fmt::format(" The concrete would crack here: {}{}, where the model has no joint; run  fe  with  crack = "
+                       "\"traced\"  in [dam], or with a bonded [[lift_joint]] at elevation_m = {:.3g}.",
                        crack_words(*most),
                        most->tensile_strength ? ""
                                               : fmt::format(", above the {:g} to {:g} MPa of mass concrete (Raphael 1984)",
@@ -478,6 +480,38 @@ Table bond_table(const std::vector<ContactRun>& runs)
         rows,
         {"damaged: has reached its strength and softened; broken: of it, what carries nothing but friction any more; cut: "
          "broken from face to face."});
+}
+
+Table traced_table(const std::vector<TracedCrack>& cracks, const Scene& scene)
+{
+    struct Row {
+        const TracedCrack& crack;
+        Polyline path; ///< from its start on
+    };
+    std::vector<Row> rows;
+    for (const TracedCrack& crack : cracks)
+        for (const LiftJoint& joint : scene.lift_joints)
+            if (joint.name == crack.name) {
+                rows.push_back({crack, joint.path});
+                if (!crack.from_upstream) std::reverse(rows.back().path.begin(), rows.back().path.end());
+            }
+    constexpr double degrees = 180.0 / std::numbers::pi;
+    const auto dip = [](Point a, Point b) { return degrees * std::atan2((a.y - b.y) * (b.x > a.x ? 1 : -1), std::abs(b.x - a.x)); };
+    return table_of<Row>(
+        "Traced cracks",
+        {{in_brief({"name", "name"}), [](const Row& r) { return r.crack.name; }},
+         {in_brief({"face", "from"}), [](const Row& r) { return std::string(r.crack.other ? "both faces" : r.crack.from_upstream ? "upstream" : "downstream"); }},
+         {in_brief({"start_y_m", "start", "m", 4}), [](const Row& r) { return r.path.front().y; }},
+         {{"end_y_m", "other face", "m", 4}, [](const Row& r) { return r.path.back().y; }},
+         {{"start_dip_deg", "dip at start", "deg", 3}, [=](const Row& r) { return dip(r.path[0], r.path[1]); }},
+         {in_brief({"dip_deg", "dip", "deg", 3}), [=](const Row& r) { return dip(r.path.front(), r.path.back()); }},
+         {in_brief({"start_time_s", "f_t at", "s", 4}), [](const Row& r) { return r.crack.time; }},
+         {{"passes", "passes"}, [](const Row& r) { return r.crack.passes; }},
+         {in_brief({"path_change_m", "path ±", "m", 2}), [](const Row& r) { return r.crack.change; }},
+         {in_brief({"settled", "settled"}), [](const Row& r) { return std::string(r.crack.settled ? "yes" : "no"); }}},
+        rows,
+        {"dip: positive where the path falls downstream; f_t at: when the concrete came to its strength at the start; path ±: what "
+         "drawing the path anew moved of its cracked part at last. How far it has cracked: Cracks along the lift joints."});
 }
 
 Table contact_anchor_table(const std::vector<ContactRun>& runs)

@@ -118,7 +118,9 @@ void write_fe_files(const std::filesystem::path& folder, const Scene& scene, con
 {
     fields.write_collection();
     answer.write(folder, {});
-    write_file(folder / "scene.resolved.toml", resolved_toml(scene));
+    Scene given = scene; // the file's cracks are traced again
+    std::erase_if(given.lift_joints, [](const LiftJoint& joint) { return !joint.path.empty(); });
+    write_file(folder / "scene.resolved.toml", resolved_toml(given));
     write_file(folder / "report.html", page_html(page));
 }
 

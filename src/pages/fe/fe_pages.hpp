@@ -2,6 +2,7 @@
 
 #include "analysis/fe/contact_run.hpp"
 #include "analysis/fe/tied_runs.hpp"
+#include "analysis/fe/traced_cracks.hpp"
 #include "analysis/prepare/records.hpp"
 #include "analysis/prepare/rigid_model.hpp"
 #include "core/csv.hpp"
@@ -72,6 +73,9 @@ Table run_solution_table(const std::vector<ContactRun>& runs, bool with_seconds)
 
 /// Tension away from joints, and tied lifts; the same columns end contact_run_table().
 Table crack_table(const std::vector<ContactRun>& runs);
+/// One row for each crack that was traced: where it begins, its path and what drawing it anew moved at last.
+/// @param scene  that was run, with the paths
+Table traced_table(const std::vector<TracedCrack>& cracks, const Scene& scene);
 /// "σ₁ 1.2 MPa, 0.41 of f_t, at x 3 m, y 66 m, 4.35 s". @pre run.fe.cracks.known
 std::string crack_words(const ContactRun& run);
 /// What cracks that the model does not have, and what to run; empty: nothing. Begins with a space.
@@ -278,6 +282,7 @@ public:
         const PressureProfile& uplift;                       ///< under the base before the earthquake
         std::vector<sliding::Equilibrium> combinations = {}; ///< Ready::combinations()
         bool reduced = false;                                ///< on few modes of the dam
+        std::vector<TracedCrack> traced = {};                ///< ContactRuns::traced()
     };
     explicit FeReport(const Input& input);
 

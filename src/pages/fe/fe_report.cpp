@@ -314,7 +314,7 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::
     Section slip{"Slip", {}, Fold::open};
     for (Table& table : std::vector{run_answer_table(runs, allowable), contact_slip_table(runs), run_out_table(runs),
                                     crack_table(runs), contact_event_table(runs), contact_lift_table(runs, allowable),
-                                    bond_table(runs), contact_anchor_table(runs), base_water_table(in_.scene, runs)})
+                                    traced_table(in_.traced, in_.scene), bond_table(runs), contact_anchor_table(runs), base_water_table(in_.scene, runs)})
         if (!table.rows.empty()) slip.parts.push_back(rows_part(std::move(table)));
     if (!spread.empty()) slip.parts.push_back(Paragraph{spread});
     const bool slides = find(runs, [](const ContactRun& r) { return std::abs(r.fe.max_slip) >= no_slip; });
@@ -529,6 +529,7 @@ Answer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>& 
     Answer answer = begin_fe_answer(contact_frame(in, runs));
     answer += fmt::format("  {} contact pairs; damping a_M = {:.5g} 1/s, b_K = {:.5g} s\n  {}\n\n", pairs, damping.mass,
                           damping.stiffness, rock_line(in.scene, in.model));
+    nlohmann::ordered_json paths; ///< by the name of the crack: points from the upstream face on
     answer.set("contact_pairs", pairs);
     answer.set("damping", {{"mass_coefficient_1_s", damping.mass}, {"stiffness_coefficient_s", damping.stiffness}});
     answer.set("rock", rock_json(in.scene, in.model));
@@ -544,6 +545,15 @@ Answer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>& 
     answer.add("run_out", run_out_table(runs));
     answer.add("cracking", crack_table(runs));
     if (!joints_of(in.scene).empty()) answer.add("lift_joints", contact_lift_table(runs, allowable), {.brief = true});
+    add_known("traced_cracks", traced_table(in.traced, in.scene), {.brief = true});
+    for (const TracedCrack& crack : in.traced)
+        for (const LiftJoint& joint : in.scene.lift_joints)
+            if (joint.name == crack.name) {
+                nlohmann::ordered_json path = nlohmann::ordered_json::array();
+                for (const Point& p : joint.path) path.push_back({p.x, p.y});
+                paths[crack.name] = std::move(path);
+            }
+    if (!paths.empty()) answer.set("crack_paths_m", paths);
     add_known("cracks", bond_table(runs));
     if (!in.scene.anchors.empty()) answer.add("anchors", contact_anchor_table(runs));
     answer.add("counts", contact_count_table(runs), {.text = false});

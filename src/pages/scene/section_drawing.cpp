@@ -190,6 +190,11 @@ void draw_curtain_and_drains(Sketch& sketch, const Scene& scene, const Frame& f)
 void draw_lift_joints(Sketch& sketch, const Scene& scene)
 {
     for (const LiftJoint& joint : scene.lift_joints) {
+        if (!joint.path.empty()) {
+            sketch.line(joint.path, "joint");
+            sketch.text(joint.path.back(), joint.name, Align::start, 7, 4, "small halo");
+            continue;
+        }
         const Polyline up = below(upstream_face(scene.section), joint.elevation),
                        down = below(downstream_face(scene.section), joint.elevation);
         if (up.empty() || down.empty()) continue;
