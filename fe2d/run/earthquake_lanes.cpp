@@ -197,7 +197,9 @@ std::vector<RunResult> EarthquakeRun::shake(int halvings, std::span<Lane* const>
 std::unique_ptr<EarthquakePass> EarthquakeRun::pass_of(const Lane& lane, int halvings, const PassSteps& steps) const
 {
     const Rest at_rest = rest(lane);
-    DynamicContact start(operators_, at_rest.load, at_rest.start, lane.memory, scene_.contact, options_.contact);
+    ContactMemory memory = lane.memory;
+    if (auto* bond = memory.laws.find<BondLaw>()) bond->set_motion(true);
+    DynamicContact start(operators_, at_rest.load, at_rest.start, memory, scene_.contact, options_.contact);
     if (adapts_steps(lane)) start.control(control_of(lane, halvings));
     PlayedGround ground(*lane.motion, damping_.mass, damping_.constants.mass);
     const double interval = frame_interval(ground.samples_end());
@@ -413,8 +415,10 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
             lift.bond = bond->lengths(planes.first(number), planes[number].pairs());
     }
     if (const auto* anchors = end.contact.laws.find<AnchorLaw>()) result.anchors = anchors->outcomes();
+    ContactMemory still = end.contact;
+    if (auto* bond = still.laws.find<BondLaw>()) bond->set_motion(false);
     result.state = {end.contact.force,  end.contact.opening,    end.contact.slip, {}, {},
-                    end.contact.states, end.contact.laws.save()};
+                    end.contact.states, still.laws.save()};
     strength_at_end.save(result.state);
     result.displacement = displacement_of(end.u, end.rock);
     if (result.zero_displacement.size() > 0) result.displacement -= result.zero_displacement;
@@ -440,8 +444,8 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
     const SplitLoad before = load_of(lane);
     const bool drains_lost = result.base_water && result.base_water->drains_lost;
     const CrackedUplift& uplift_after = drains_lost ? options_.drain_loss->uplift_after : options_.uplift_after;
-    result.after = stage_after(*statics, *structure_, uplift_after, crack, load, strength_at_end, end.contact,
-                               &before, structure_->slides_far() ? Relaxation{} : relaxation());
+    result.after = stage_after(*statics, *structure_, uplift_after, crack, load, strength_at_end, still, &before,
+                               structure_->slides_far() ? Relaxation{} : relaxation());
 }
 
 SlideWatch EarthquakeRun::slide_watch(const Lane& lane, double record_end) const

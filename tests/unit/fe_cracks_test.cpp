@@ -94,6 +94,32 @@ TEST(AdaptiveLifts, GiveTheHistoriesOfAllLiftsActiveFromTheStart)
     }));
 }
 
+/// In motion strengths and energies are `dynamic_increase` times those at rest: nothing breaks at rest here, so the histories are those of
+/// a bond that has as much from the start. The elements are the same, G/f² of the earthquake counts.
+TEST(DynamicIncrease, IsABondThatMuchStronger)
+{
+    const auto run_of = [](const std::string& bond) {
+        std::string text = dam_text("all", {}, "3.5");
+        text.erase(text.rfind("[[motion.record]]"));
+        const std::size_t at = text.find("cohesion_kPa"), end = text.find("active");
+        text.replace(at, end - at, bond);
+        text.replace(text.find("[motion]\n"), 9, "[motion]\npolarity = 1\n");
+        return runs_of(ready_of(text)).front().fe;
+    };
+    const std::string at_rest = "cohesion_kPa = 800\ntensile_strength_kPa = 500\nfracture_energy_tension_N_m = 150\n"
+                                "fracture_energy_shear_N_m = 1500\n";
+    const fe2d::RunResult increased = run_of(at_rest + "dynamic_increase = 1.2\n"), plain = run_of(at_rest),
+                          strong = run_of("cohesion_kPa = 960\ntensile_strength_kPa = 600\n"
+                                          "fracture_energy_tension_N_m = 180\nfracture_energy_shear_N_m = 1800\n");
+    ASSERT_EQ(increased.status, strong.status);
+    EXPECT_LT(fe2d::largest_difference(increased.history.slip, strong.history.slip), 1e-9);
+    EXPECT_LT(fe2d::largest_difference(increased.history.crest_x, strong.history.crest_x), 1e-9);
+    EXPECT_GT(strong.history.energy.back().bond_fracture, 1.0); // it cracks, and so otherwise than with its strength at rest
+    EXPECT_NEAR(increased.history.energy.back().bond_fracture, strong.history.energy.back().bond_fracture, 1e-6);
+    EXPECT_GT(fe2d::largest_difference(plain.history.crest_x, strong.history.crest_x), 1e-6);
+    EXPECT_LT(increased.energy_error, 1e-9);
+}
+
 /// A step with lift joints on a rigid base keeps A_d Δu = b + k s + Dᵀ λ̃ and has the gaps asked for, whatever they are.
 TEST(AwakeLifts, StepsKeepTheEquationOfMotion)
 {
@@ -227,7 +253,7 @@ TEST(Cracks, LargestTensionIsThatOfTheElements)
 /// Koyna's neck at 0.47 g: it cracks from face to face, within a fifth of a second, and the top stands; on two meshes.
 TEST(Cracks, CutTheNeckOfKoynaOnTwoMeshes)
 {
-    const auto run_on = [](const std::string& size) {
+    const auto run_on = [](const std::string& size, const std::string& softening = "linear") {
         const std::string data = std::string(source_dir()) + "/records/data/ec8_3.0_";
         const Ready ready = ready_of(
             "[section]\npolygon_m = [[0, 0], [70, 0], [19.25, 66.5], [14.8, 103], [0, 103]]\n"
@@ -235,7 +261,7 @@ TEST(Cracks, CutTheNeckOfKoynaOnTwoMeshes)
             "[reservoir]\nlevel_m = 90.5\nmodel = \"added-mass\"\n[uplift]\nmodel = \"none\"\n"
             "[lifts]\nelevations_m = [66]\nbond = \"bonded\"\nfriction = 1\ncohesion_kPa = 3120\n"
             "tensile_strength_kPa = 2400\nfracture_energy_tension_N_m = 200\nfracture_energy_shear_N_m = 1000\n"
-            "uplift = \"none\"\n[time]\nsubsteps = 0\n[mesh]\nsize_m = " + size +
+            "softening = \"" + softening + "\"\nuplift = \"none\"\n[time]\nsubsteps = 0\n[mesh]\nsize_m = " + size +
             "\n[motion]\nscale_to_pga_m_s2 = 4.61\npolarity = 1\n"
             "[[motion.record]]\nname = \"a\"\nhorizontal = \"" + data + "h.csv\"\nvertical = \"" + data + "v.csv\"\n");
         return std::move(runs_of(ready).front().fe);
@@ -245,8 +271,8 @@ TEST(Cracks, CutTheNeckOfKoynaOnTwoMeshes)
         const auto at = std::find_if(broken.begin(), broken.end(), [&](double x) { return x > 0.0 && x >= length; });
         return run.history.time[static_cast<std::size_t>(at - broken.begin())];
     };
-    const fe2d::RunResult coarse = run_on("3"), fine = run_on("1.6");
-    for (const fe2d::RunResult* run : {&coarse, &fine}) {
+    const fe2d::RunResult coarse = run_on("3"), fine = run_on("1.6"), curved = run_on("3", "exponential");
+    for (const fe2d::RunResult* run : {&coarse, &fine, &curved}) {
         ASSERT_EQ(run->status, Status::at_rest) << run->message;
         EXPECT_EQ(run->counts.unresolved, 0);
         EXPECT_LT(run->energy_error, 1e-9);

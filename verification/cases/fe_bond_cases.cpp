@@ -71,6 +71,7 @@ public:
         return -solution.force;
     }
     const BondLaw& bond() const { return *memory_.laws.find<BondLaw>(); }
+    void set_in_motion() { memory_.laws.find<BondLaw>()->set_motion(true); }
 
 private:
     double stiffness_;
@@ -152,6 +153,76 @@ std::vector<Check> mixed_paths()
             {"dissipated when unloaded", "J/m", G * kappa, bar.bond().energy().bond_fracture, 1e-8, Measure::relative});
         checks.push_back(
             {"stored when unloaded, over it", "-", 0.0, bar.bond().energy().stored / G, 1e-12, Measure::absolute});
+    }
+    return checks;
+}
+
+/// Exponential softening that ends where a thousandth of the strength is left: f (e^(-w/v) - e^(-N))/(1 - e^(-N)), N = ln 1000, with
+/// v so that the work is G.
+struct ExponentialBond {
+    double strength = 0.0, energy = 0.0; ///< f A [N/m], G A [J/m]
+    double n = std::log(1000.0), end = 1e-3;
+
+    double length() const { return energy / strength * (1.0 - end) / (1.0 - end * (1.0 + n)); } ///< v [m]
+    double width() const { return n * length(); }
+    double force(double w) const { return strength * (std::exp(-w / length()) - end) / (1.0 - end); }
+    /// Of the bond that is pulled open from 0 to w [J/m].
+    double work(double w) const
+    {
+        return strength * (length() * (1.0 - std::exp(-w / length())) - end * w) / (1.0 - end);
+    }
+};
+
+/// (CRACKS 3.4) Exponential softening and the rate factor of one pair.
+std::vector<Check> exponential_bar()
+{
+    const double area = 0.5, f_t = 1.5e6, energy = 150.0, rate = 1.2;
+    Bond law = bond_of(f_t, energy, 1.0);
+    law.softening = BondSoftening::exponential;
+    law.dynamic_increase = rate;
+    const BondStrength bond = fe2d::bond_strength(area, 0.0, 0.0, law);
+    const ExponentialBond exact{f_t * area, energy * area};
+    const double unit = energy / f_t, stiff = 4.0 * exact.strength / unit; // no snap-back
+    const auto open = [&](PulledBar& bar, double w, double force) { return bar.pull(w + force / stiff)[0]; };
+    std::vector<Check> checks;
+    PulledBar bar(stiff, bond);
+    checks.push_back({"force just before the peak", "N/m", exact.strength * (1 - 1e-6),
+                      bar.pull(exact.strength / stiff * (1 - 1e-6))[0], 1e-8, Measure::relative});
+    for (const double share : {0.25, 1.0, 3.0}) {
+        const double w = share * unit, force = open(bar, w, exact.force(w));
+        const std::string at = ", opening of " + std::to_string(share).substr(0, 4) + " G/f";
+        checks.push_back({"force" + at, "N/m", exact.force(w), force, 1e-7, Measure::relative});
+        checks.push_back({"force over f" + at + ": exp(-w f/G)", "-", std::exp(-share), force / exact.strength, 2.5e-3,
+                          Measure::absolute});
+    }
+    const double w = 3.0 * unit, force = exact.force(w), stored = 0.5 * force * w;
+    checks.push_back({"stored at 3 G/f", "J/m", stored, bar.bond().energy().stored, 1e-7, Measure::relative});
+    checks.push_back({"spent at 3 G/f", "J/m", exact.work(w) - stored, bar.bond().energy().bond_fracture, 1e-8,
+                      Measure::relative});
+    checks.push_back({"force when half closed: to the origin", "N/m", 0.5 * force, open(bar, 0.5 * w, 0.5 * force), 1e-7,
+                      Measure::relative});
+    bar.set_in_motion();
+    checks.push_back({"the same, damaged at rest and now in motion", "N/m", 0.5 * force, open(bar, 0.5 * w, 0.5 * force),
+                      1e-7, Measure::relative});
+    checks.push_back({"force further on, in motion", "N/m", rate * exact.force(1.5 * w),
+                      open(bar, 1.5 * w, rate * exact.force(1.5 * w)), 1e-7, Measure::relative});
+    for (const bool moving : {false, true}) {
+        PulledBar other(stiff * (moving ? rate : 1.0), bond);
+        if (moving) other.set_in_motion();
+        const double factor = moving ? rate : 1.0;
+        const int steps = 700;
+        double done = 0.0, before = factor * exact.strength; // rigid up to the strength
+        for (int k = 1; k <= steps; ++k) {
+            const double to = exact.width() * k / steps, from = exact.width() * (k - 1) / steps;
+            const double now = other.pull(to + exact.force(to) / stiff)[0];
+            done += 0.5 * (now + before) * (to - from);
+            before = now;
+        }
+        const std::string with = moving ? ", in motion" : "";
+        checks.push_back({"work of fracture" + with, "J/m", factor * energy * area, other.bond().energy().bond_fracture,
+                          1e-8, Measure::relative});
+        checks.push_back({"work of the force, summed up" + with, "J/m", factor * energy * area, done, 1e-4,
+                          Measure::relative});
     }
     return checks;
 }
@@ -251,6 +322,7 @@ std::vector<Check> sheared_plate()
 struct PushedBlock {
     double mass = 1e6, strength = 2e6, width = 2e-3, friction = 1e6, push = 4e6; ///< M, cA, w, R, P
     double first_damage = usual_first_damage;                                    ///< κ₀
+    BondSoftening softening = BondSoftening::linear; ///< exponential: only for SteppedBlock::rate_squared and its work
 
     double drive() const { return push - friction; }
     double omega() const { return std::sqrt(strength / (mass * width)); }
@@ -293,11 +365,13 @@ SteppedBlock step_through(const PushedBlock& block, double dt)
     const double m = block.mass, pressed = 1e6;
     fe2d::JointLawSolver solver(shared(4 * m / (dt * dt) * MatrixXd::Identity(2, 2)), {});
     ContactMemory memory(1);
-    memory.laws =
-        laws_of({fe2d::bond_strength(1.0, 0.0, block.strength, bond_of(0.0, 1.0, block.work()))}, block.first_damage);
+    Bond bond = bond_of(0.0, 1.0, block.work());
+    bond.softening = block.softening;
+    memory.laws = laws_of({fe2d::bond_strength(1.0, 0.0, block.strength, bond)}, block.first_damage);
+    const double width = memory.laws.find<BondLaw>()->strength().front().slip;
     SteppedBlock result;
     double rate = 0.0, accel = block.drive() / m;
-    for (int step = 1; memory.slip[0] < block.width; ++step) {
+    for (int step = 1; memory.slip[0] < width; ++step) {
         VectorXd stuck(2);
         stuck << pressed, -block.push - 4 * m / dt * rate - m * accel;
         ContactSolution solution{memory.states, {}, {}};
@@ -313,7 +387,7 @@ SteppedBlock step_through(const PushedBlock& block, double dt)
         const double now = memory.slip[0], half = 0.5 * block.width;
         if (before < half && now >= half) result.late = step * dt - block.time(now);
     }
-    result.rate_squared = rate * rate - 2.0 * block.drive() / m * (memory.slip[0] - block.width);
+    result.rate_squared = rate * rate - 2.0 * block.drive() / m * (memory.slip[0] - width);
     result.work = memory.laws.energy().bond_fracture;
     return result;
 }
@@ -334,6 +408,16 @@ std::vector<Check> pushed_block()
         {"order in the step, half as long", "-", 2.0, std::log2(middle.late / fine.late), 0.05, Measure::absolute},
         {"rate^2 at which the bond is gone", "m^2/s^2", exact, fine.rate_squared, 1e-8, Measure::relative},
         {"work of fracture", "J/m", block.work(), fine.work, 1e-8, Measure::relative}};
+    // Exponential softening: what the push has done less G and what the first κ₀ 2G/f of the opening are softer than rigid.
+    PushedBlock curved;
+    curved.softening = BondSoftening::exponential;
+    const ExponentialBond law{curved.strength, curved.work()};
+    const double first = curved.first_damage * curved.width;
+    const double taken = law.energy - law.work(first) + 0.5 * first * law.force(first);
+    const SteppedBlock curve = step_through(curved, dt);
+    checks.push_back({"rate^2 at which the bond is gone, exponential", "m^2/s^2",
+                      2.0 * (curved.drive() * law.width() - taken) / curved.mass, curve.rate_squared, 1e-8, Measure::relative});
+    checks.push_back({"work of fracture, exponential", "J/m", law.energy, curve.work, 1e-8, Measure::relative});
     // Of a bond that is rigid at first: rate² by κ₀ cA w/M; the time by what the first κ₀ w take.
     for (const auto& [kappa, steps_before] : {std::pair{1e-3, 512.0}, std::pair{1e-5, 64.0}}) {
         PushedBlock other;
@@ -489,6 +573,10 @@ void add_fe_bond_cases(Registry& cases)
     cases.push_back({"fe2d.bond.bar",
                      "A bond in series with a bar peaks at f_t A, softens by G_I, and snaps back iff L > E w/f_t.",
                      "closed form, linear softening", one_pair, pulled_bar});
+    cases.push_back(
+        {"fe2d.bond.exponential",
+         "Exponential softening: force and energies at given openings, unloading to the origin, work G A; in motion 1.2 of all.",
+         "closed form", one_pair + " times the slope; 1e-4: trapezoids; 2.5e-3: the tail is cut at 1e-3", exponential_bar});
     cases.push_back(
         {"fe2d.bond.mixed",
          "Straight paths in both modes cost G_I cos^2 + G_II sin^2; unloaded bonds give back what they stored.",
