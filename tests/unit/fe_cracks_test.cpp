@@ -289,6 +289,50 @@ TEST(Cracks, CutTheNeckOfKoynaOnTwoMeshes)
     EXPECT_NEAR(first(coarse, 0.0), first(fine, 0.0), 0.02);
 }
 
+/// Koyna's section overtopped, E 25 GPa, f_t 1 MPa, G 200 N/m (Jirásek & Zimmermann after Saksala & Mäkinen 2020): the heel cracks first,
+/// then the upstream face higher up, of six lifts at that at 60 m.
+TEST(Cracks, OvertoppedKoynaCracksAtItsHeelThenHigherUpstream)
+{
+    // Damaged pairs of the base and of each lift, and whether they go on from the upstream face.
+    const auto cracks_of = [](double water) {
+        const std::string bond = "cohesion_kPa = 3000\ntensile_strength_kPa = 1000\nfracture_energy_tension_N_m = 200\n"
+                                 "fracture_energy_shear_N_m = 2000\nsoftening = \"exponential\"\n";
+        const Ready ready = ready_of(
+            "[section]\npolygon_m = [[0, 0], [70, 0], [19.25, 66.5], [14.8, 103], [0, 103]]\n"
+            "[dam]\ndensity_kg_m3 = 2643\nyoung_modulus_GPa = 25\npoisson_ratio = 0.2\n[contact]\nfriction = 1\n" +
+            bond + "[reservoir]\nlevel_m = " + std::to_string(water) +
+            "\novertopped = true\nmodel = \"hydrostatic\"\n[uplift]\nmodel = \"none\"\n[time]\nsubsteps = 0\n"
+            "[lifts]\nelevations_m = [30, 45, 55, 60, 66, 75]\nbond = \"bonded\"\nactive = \"all\"\nuplift = \"none\"\n"
+            "friction = 1\n" + bond);
+        const fe2d::EarthquakeRun model(ready.scene, {});
+        GroundMotion still;
+        still.dt = 0.01;
+        still.accel_h.assign(3, 0.0);
+        const fe2d::RunResult run = model.run(still);
+        EXPECT_EQ(run.status, Status::at_rest) << run.message;
+        const std::vector<double>& damage = run.state.laws.at("bond_damage");
+        const fe2d::ContactPlanes& planes = model.structure().planes();
+        std::vector<int> cracks;
+        for (Eigen::Index k = 0; k < planes.count(); ++k) {
+            const auto first = damage.begin() + planes.first(k), end = first + planes[k].pairs();
+            const auto tip = std::find(first, end, 0.0);
+            EXPECT_TRUE(std::all_of(tip, end, [](double x) { return x == 0.0; })) << water << " m, plane " << k;
+            cracks.push_back(static_cast<int>(tip - first));
+        }
+        return cracks;
+    };
+    const std::vector<int> little = cracks_of(105.0), much = cracks_of(117.0);
+    EXPECT_GT(little[0], 3);
+    EXPECT_GT(much[0], little[0]);
+    for (std::size_t k = 1; k < little.size(); ++k) {
+        EXPECT_EQ(little[k], 0) << k;
+        if (k == 4) // at 60 m: a second crack, half through
+            EXPECT_GT(much[k], 10);
+        else
+            EXPECT_EQ(much[k], 0) << k;
+    }
+}
+
 /// Strength halfway below the stress: the answer says so, and PASS is no plain one.
 TEST(Cracks, TurnPassIntoPassWithoutCracking)
 {
