@@ -469,13 +469,17 @@ void BondLaw::restore(const JointLawState& state)
 BondLengths BondLaw::lengths(Index first, Index pairs) const
 {
     BondLengths sum;
+    double run = 0.0; // broken pairs up to this one
     for (Index i = first; i < first + pairs; ++i) {
         const BondStrength& b = strength_[static_cast<std::size_t>(i)];
         if (!b.any()) continue;
         sum.bonded += b.area;
         if (damage_[i] > smallest(i)) sum.damaged += b.area;
         if (damage_[i] >= 1.0) sum.broken += b.area;
+        run = damage_[i] >= 1.0 ? run + b.area : 0.0;
+        if (sum.broken == sum.bonded) sum.upstream = run;
     }
+    sum.downstream = run;
     return sum;
 }
 

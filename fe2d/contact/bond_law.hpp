@@ -37,6 +37,10 @@ struct BondLengths {
     double bonded = 0.0;  ///< of the intact joint; 0: it has no bond
     double damaged = 0.0; ///< has reached its strength and softened, broken length included
     double broken = 0.0;  ///< carries nothing but friction any more
+    double upstream = 0.0, downstream = 0.0; ///< of it, from that end on without a bonded pair between
+
+    double ligament() const { return bonded - broken; }
+    bool through() const { return broken >= bonded * (1.0 - 1e-9); } ///< from end to end: sums round
 };
 
 /// The bond of one pair. Without tensile strength opening breaks it as slip does, w_I = w_II, and takes no work across the

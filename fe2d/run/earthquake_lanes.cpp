@@ -411,6 +411,10 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
         lift.largest_opening = largest(h.largest_opening);
         lift.largest_rocking = largest(h.rocking);
         const auto number = static_cast<Index>(k + 1);
+        const Mesh& mesh = structure_->model().mesh;
+        const Point a = mesh.nodes[static_cast<std::size_t>(mesh.lifts[k].lower_nodes.front())],
+                    b = mesh.nodes[static_cast<std::size_t>(mesh.lifts[k].lower_nodes.back())];
+        lift.dip = std::atan2(a.y - b.y, b.x - a.x);
         if (const auto* bond = end.contact.laws.find<BondLaw>())
             lift.bond = bond->lengths(planes.first(number), planes[number].pairs());
     }
@@ -446,6 +450,18 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
     const CrackedUplift& uplift_after = drains_lost ? options_.drain_loss->uplift_after : options_.uplift_after;
     result.after = stage_after(*statics, *structure_, uplift_after, crack, load, strength_at_end, still, &before,
                                structure_->slides_far() ? Relaxation{} : relaxation());
+    if (scene_.seam_body) return;
+    for (std::size_t k = 0; k < std::min(result.lifts.size(), result.after.lifts.size()); ++k) {
+        const auto number = static_cast<Index>(k + 1);
+        const PlaneBalance& balance = result.after.lifts[k];
+        LiftResult& lift = result.lifts[k];
+        if (!(lift.bond.broken > 0.0) || !std::isfinite(balance.sliding_factor)) continue;
+        const double friction =
+            strength_at_end.law().friction.segment(planes.first(number), planes[number].pairs()).minCoeff();
+        const double head = head_in_crack(scene_, joints_of(scene_)[k], planes[number], lift.bond);
+        lift.cut_factor = std::max(
+            0.0, balance.sliding_factor - friction * head / std::abs(balance.resultant.shear_force));
+    }
 }
 
 SlideWatch EarthquakeRun::slide_watch(const Lane& lane, double record_end) const

@@ -283,10 +283,45 @@ TEST(Cracks, CutTheNeckOfKoynaOnTwoMeshes)
         EXPECT_LT(neck.largest_rocking, 0.02);                  // of the top: it rocks and stands
         EXPECT_EQ(run->after.status, fe2d::StageStatus::ok);
         EXPECT_LT(first(*run, neck.bond.bonded - 1e-9) - first(*run, 0.0), 0.2);
+        // The top by hand: its weight less the head of 24.5 m below all of it, against the water before it.
+        EXPECT_EQ(neck.bond.ligament(), 0.0);
+        EXPECT_EQ(neck.dip, 0.0);
+        const double width = 19.25 + (70.0 - 19.25) * 0.5 / 66.5, head = 90.5 - 66.0;
+        const double weight = 2643.0 * 9.81 * (0.5 * (14.8 + 19.25) * 36.5 + 0.5 * (19.25 + width) * 0.5);
+        const double factor = (weight - 9810.0 * head * width) / (0.5 * 9810.0 * head * head);
+        EXPECT_NEAR(neck.cut_factor, factor, 1e-6 * factor);
     }
     const double depth = fine.lifts.front().bond.damaged;
     EXPECT_NEAR(coarse.lifts.front().bond.damaged, depth, 0.15 * depth);
     EXPECT_NEAR(first(coarse, 0.0), first(fine, 0.0), 0.02);
+}
+
+/// Full head in the broken part of a lift of 10 m, 20 m below the reservoir: in a lift with water on a line the surplus falls on a
+/// line from the tip to the other face, in a dry one it ends at the tip.
+TEST(Cracks, HeadInALiftIsThatOfItsFace)
+{
+    Scene scene = parse_scene("[section]\npolygon_m = [[0, 0], [10, 0], [10, 40], [0, 40]]\n[dam]\ndensity_kg_m3 = 2400\n"
+                              "[contact]\nfriction = 1\n[reservoir]\nlevel_m = 30\nmodel = \"added-mass\"\n"
+                              "[tailwater]\nlevel_m = 15\n[uplift]\nmodel = \"none\"\n",
+                              "dam.toml");
+    LiftJoint lift;
+    lift.elevation = 10.0;
+    const Eigen::Index pairs = 1001;
+    fe2d::Plane plane;
+    plane.distance = Eigen::VectorXd::LinSpaced(pairs, 0.0, 10.0);
+    plane.area = Eigen::VectorXd::Constant(pairs, 0.01);
+    plane.area[0] = plane.area[pairs - 1] = 0.005;
+    const double up = 9810.0 * 20.0, down = 9810.0 * 5.0;
+    const auto added = [&](JointWater water, double upstream, double downstream) {
+        lift.water = water;
+        return fe2d::head_in_crack(scene, lift, plane, {10.0, 10.0, upstream + downstream, upstream, downstream});
+    };
+    EXPECT_NEAR(added(JointWater::none, 4.005, 0.0), 4.005 * up, 1e-9 * up);
+    EXPECT_NEAR(added(JointWater::none, 4.005, 2.005), 4.005 * up + 2.005 * down, 1e-9 * up);
+    // On a line: 4 m with `up`, then straight to `down` at the other face, less the trapezoid that was there.
+    EXPECT_NEAR(added(JointWater::linear, 4.0, 0.0), 4.0 * up + 6.0 * 0.5 * (up + down) - 10.0 * 0.5 * (up + down), 0.01 * up);
+    EXPECT_NEAR(added(JointWater::linear, 10.0, 10.0), 10.0 * up - 10.0 * 0.5 * (up + down), 1e-9 * up);
+    EXPECT_EQ(added(JointWater::linear, 0.0, 3.0), 0.0); // from the tailwater: no less than there was
 }
 
 /// Koyna's section overtopped, E 25 GPa, f_t 1 MPa, G 200 N/m (Jirásek & Zimmermann after Saksala & Mäkinen 2020): the heel cracks first,
