@@ -88,6 +88,14 @@ TEST(AdaptiveLifts, GiveTheHistoriesOfAllLiftsActiveFromTheStart)
         }
         for (const fe2d::TiedLift& lift : b.cracks.lifts) EXPECT_LT(lift.index, fe2d::wake_index) << lift.name;
     }
+    // A lift that would slide with full head in its crack is named.
+    std::vector<ContactRun> wet = all;
+    const auto headline = [&] { return pages::fe_headline(ready_of(dam_text("all")).scene, wet).sentence; };
+    EXPECT_EQ(headline().find("full head"), std::string::npos) << headline();
+    wet.front().fe.lifts[1].cut_factor = 0.83;
+    EXPECT_NE(headline().find("lift joint at 12 m does not stand with full head in its crack after the earthquake, sliding factor 0.83."),
+              std::string::npos)
+        << headline();
     // Something must have broken, or this compares dams of one piece.
     EXPECT_TRUE(std::any_of(adaptive.begin(), adaptive.end(), [](const ContactRun& r) {
         return r.fe.history.energy.back().bond_fracture > 1.0;
