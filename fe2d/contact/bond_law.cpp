@@ -31,12 +31,47 @@ double square(double x)
     return x * x;
 }
 
-double softness(double damage)
-{
-    return (1.0 - damage) / damage;
-}
+/// Share of the strength at which exponential softening ends: the law is moved down by it, and its w_I is 0.7 % longer for that, so
+/// that it costs G. Of the strength it differs by 0.2 % from exp(-w f/G).
+constexpr double end_of_tail = 1e-3;
+const double decay = -std::log(end_of_tail);
 
 } // namespace
+
+double BondStrength::left(double damage) const
+{
+    if (softening == BondSoftening::linear) return 1.0 - damage;
+    return (std::exp(-decay * damage) - end_of_tail) / (1.0 - end_of_tail);
+}
+
+double BondStrength::slope(double damage) const
+{
+    return softening == BondSoftening::linear ? 1.0 : decay * std::exp(-decay * damage) / (1.0 - end_of_tail);
+}
+
+double BondStrength::work(double damage) const
+{
+    if (softening == BondSoftening::linear) return damage - 0.5 * damage * damage;
+    return (-std::expm1(-decay * damage) / decay - end_of_tail * damage) / (1.0 - end_of_tail);
+}
+
+double BondStrength::spent(double damage) const
+{
+    if (softening == BondSoftening::linear) return damage;
+    return (work(damage) - 0.5 * damage * left(damage)) / work(1.0);
+}
+
+double BondStrength::damage_at(double softness) const
+{
+    if (softening == BondSoftening::linear) return 1.0 / (1.0 + softness);
+    double damage = 0.0; // left(κ) - h κ is convex and falls: Newton's iteration comes up to its zero from 0
+    for (int k = 0; k < 100; ++k) {
+        const double step = (left(damage) - softness * damage) / (slope(damage) + softness);
+        damage += step;
+        if (step <= 1e-15) break;
+    }
+    return std::min(damage, 1.0);
+}
 
 BondStrength bond_strength(double area, double friction, double cohesion, const Bond& bond)
 {
@@ -44,15 +79,17 @@ BondStrength bond_strength(double area, double friction, double cohesion, const 
     b.area = area;
     b.friction = friction;
     b.unloading = bond.unloading;
+    b.softening = bond.softening;
+    b.increase = bond.dynamic_increase;
     b.tension = bond.tensile_strength * area;
     b.shear = cohesion * area;
     if (b.tension > 0.0) {
         b.tension_energy = bond.tension_energy.value() * area;
-        b.opening = 2.0 * b.tension_energy / b.tension;
+        b.opening = b.tension_energy / (b.work(1.0) * b.tension);
     }
     if (b.shear > 0.0) {
         b.shear_energy = bond.shear_energy.value() * area;
-        b.slip = 2.0 * b.shear_energy / b.shear;
+        b.slip = b.shear_energy / (b.work(1.0) * b.shear);
     }
     if (b.tension == 0.0) b.opening = b.slip;
     if (b.shear == 0.0) b.slip = b.opening;
@@ -84,7 +121,26 @@ bool BondLaw::plastic(Index pair) const
 double BondLaw::initial_stiffness(Index pair) const
 {
     const BondStrength& b = strength_[static_cast<std::size_t>(pair)];
-    return softness(smallest_damage_) * b.shear / b.slip;
+    return b.softness(smallest_damage_) * b.shear / b.slip;
+}
+
+double BondLaw::smallest(Index pair) const
+{
+    return smallest_damage_ * 2.0 * strength_[static_cast<std::size_t>(pair)].work(1.0);
+}
+
+void BondLaw::set_motion(bool moving)
+{
+    if (moving == moving_) return;
+    moving_ = moving;
+    for (Index i = 0; i < damage_.size(); ++i) {
+        BondStrength& b = strength_[static_cast<std::size_t>(i)];
+        const double factor = moving ? b.increase : 1.0 / b.increase;
+        if (factor == 1.0) continue;
+        for (double* x : {&b.tension, &b.shear, &b.tension_energy, &b.shear_energy}) *x *= factor;
+        if (damage_[i] > 0.0 && damage_[i] < 1.0) damage_[i] = b.damage_at(b.softness(damage_[i]) / factor);
+    }
+    start_damage_ = damage_;
 }
 
 /// Slip from where the bond of plastic unloading carries no shear [m].
@@ -132,20 +188,21 @@ bool BondLaw::by_tangent(Index pair) const
 
 double BondLaw::least_damage(Index pair) const
 {
-    return std::max(start_damage_[pair], smallest_damage_);
+    return std::max(start_damage_[pair], smallest(pair));
 }
 
 BondLaw::Pull BondLaw::pull(Index pair, const Strain& e) const
 {
     const BondStrength& b = strength_[static_cast<std::size_t>(pair)];
-    const double size = e.size(), least = least_damage(pair), h = softness(std::max(size, least));
+    const double size = e.size(), least = least_damage(pair), damage = std::max(size, least), h = b.softness(damage);
     if (size >= 1.0 || least >= 1.0) return {};
     Pull p{b.tension * h * e.across, b.shear * h * e.along, h, 0.0, 0.0, h};
     if (size > least) { // it softens: h falls with ε
         const double a = e.across / size, t = e.along / size;
-        p.nn -= a * a / size;
-        p.tt -= t * t / size;
-        p.nt = p.tn = -a * t / size;
+        const double fall = b.softening == BondSoftening::linear ? 1.0 : b.left(size) + size * b.slope(size);
+        p.nn -= a * a * fall / size;
+        p.tt -= t * t * fall / size;
+        p.nt = p.tn = -a * t * fall / size;
     }
     p.nn *= b.tension / b.opening;
     p.nt *= b.tension / b.slip;
@@ -180,7 +237,7 @@ void BondLaw::add(JointTerms& terms) const
             add_tangent(i, terms);
             continue;
         }
-        const double h = softness(damage_[i]);
+        const double h = b.softness(damage_[i]);
         terms.diagonal[i] += h * b.tension / b.opening;
         const Yield yield = yield_[static_cast<std::size_t>(i)];
         if (yield != Yield::none) {
@@ -209,14 +266,23 @@ void BondLaw::add_tangent(Index pair, JointTerms& terms) const
 }
 
 /// Where κ = ε(κ) lies by the last two solutions, each pair by itself: the bond gives way by ε h(κ) + V ε = D, in its strength,
-/// with the stiffness V that what is around shows it and the drive D; beyond V = 1 it snaps through.
+/// with the stiffness V that what is around shows it and the drive D; beyond V = 1 (exponential: D) it snaps through.
 double BondLaw::guess(Index pair, double wanted, double strain) const
 {
     const double before = tried_damage_[pair], now = damage_[pair], last = tried_strain_[pair];
     if (last < 0.0 || before == now || strain == last || plastic(pair)) return wanted;
-    const double around = (strain * softness(now) - last * softness(before)) / (last - strain);
-    const double drive = strain * (around + softness(now));
+    const BondStrength& b = strength_[static_cast<std::size_t>(pair)];
+    const double around = (strain * b.softness(now) - last * b.softness(before)) / (last - strain);
+    const double drive = strain * (around + b.softness(now));
     if (!std::isfinite(around) || around < 0.0) return wanted;
+    if (b.softening == BondSoftening::exponential) {
+        if (drive <= 1.0) return wanted;
+        if (around <= drive) return 1.0;
+        double balance = 1.0; // left(κ) + V κ - D is convex: Newton's iteration comes down to its zero from 1
+        for (int k = 0; k < 50; ++k)
+            balance -= (b.left(balance) + around * balance - drive) / (around - b.slope(balance));
+        return balance;
+    }
     if (drive > 1.0 && around <= 1.0) return 1.0;
     const double balance = (drive - 1.0) / (around - 1.0);
     return (balance - now) * (wanted - now) > 0.0 ? balance : wanted;
@@ -246,10 +312,9 @@ void BondLaw::break_first(Index pair, const ContactSolution& solution)
                  over = std::max(0.0, std::abs(shear) - b.friction * std::max(0.0, normal));
     const double across = b.tension > 0.0 ? tension / b.tension : 0.0, along = b.shear > 0.0 ? over / b.shear : 0.0;
     const double size = std::hypot(across, along);
-    damage_[pair] = smallest_damage_;
+    const double first = damage_[pair] = smallest(pair);
     if (size > 0.0)
-        at_[static_cast<std::size_t>(pair)] = {smallest_damage_ * across / size,
-                                               std::copysign(smallest_damage_ * along / size, -shear)};
+        at_[static_cast<std::size_t>(pair)] = {first * across / size, std::copysign(first * along / size, -shear)};
 }
 
 /// The bond fits where the line about the strains before gives its force at the new ones.
@@ -307,7 +372,7 @@ JointFit BondLaw::revise(const ContactSolution& solution)
     if (solutions_ > free_solutions)
         for (Index i = 0; i < damage_.size(); ++i)
             if (damage_[i] >
-                std::max({strain(i, solution).size(), start_damage_[i], smallest_damage_}) + largest_overshoot)
+                std::max({strain(i, solution).size(), start_damage_[i], smallest(i)}) + largest_overshoot)
                 return JointFit::too_far;
     return static_ || unique(solution) ? fit : JointFit::too_far;
 }
@@ -322,13 +387,14 @@ bool BondLaw::unique(const ContactSolution& solution) const
     for (Index i = 0; i < m; ++i) {
         const BondStrength& b = strength_[static_cast<std::size_t>(i)];
         if (!(damage_[i] > start_damage_[i]) || damage_[i] >= 1.0) continue;
+        const double steepest = b.slope(least_damage(i));
         if (b.tension > 0.0 && solution.displacement[i] > 0.0) {
             breaking.push_back(i);
-            softening.push_back(b.tension / b.opening);
+            softening.push_back(b.tension / b.opening * steepest);
         }
         if (b.shear > 0.0 && solution.displacement[m + i] != 0.0) {
             breaking.push_back(m + i);
-            softening.push_back(b.shear / b.slip);
+            softening.push_back(b.shear / b.slip * steepest);
         }
     }
     if (breaking.empty()) return true;
@@ -354,7 +420,7 @@ void BondLaw::end(const ContactSolution& solution)
         const Strain e = strain(i, solution);
         const double size = e.size();
         const double mix = size > 0.0 ? energy_of(i, e) / square(size) : std::max(b.tension_energy, b.shear_energy);
-        fracture_ += mix * (damage_[i] - start_damage_[i]);
+        fracture_ += mix * (b.spent(damage_[i]) - b.spent(start_damage_[i]));
         if (damage_[i] > start_damage_[i]) goes_on_softening(i);
         if (plastic(i) && yield_[static_cast<std::size_t>(i)] != Yield::none) {
             const double limit = b.shear * (1.0 - damage_[i]) / initial_stiffness(i);
@@ -362,7 +428,8 @@ void BondLaw::end(const ContactSolution& solution)
             path_[i] += yielded;
             reference_[i] += std::copysign(yielded, slip);
         }
-        if (damage_[i] < 1.0 && damage_[i] > 0.0 && !plastic(i)) stored_ += softness(damage_[i]) * energy_of(i, e);
+        if (damage_[i] < 1.0 && damage_[i] > 0.0 && !plastic(i))
+            stored_ += b.softness(damage_[i]) * energy_of(i, e) / (2.0 * b.work(1.0));
     }
     start_damage_ = damage_;
     stiffness_ = nullptr;
@@ -402,13 +469,17 @@ void BondLaw::restore(const JointLawState& state)
 BondLengths BondLaw::lengths(Index first, Index pairs) const
 {
     BondLengths sum;
+    double run = 0.0; // broken pairs up to this one
     for (Index i = first; i < first + pairs; ++i) {
         const BondStrength& b = strength_[static_cast<std::size_t>(i)];
         if (!b.any()) continue;
         sum.bonded += b.area;
-        if (damage_[i] > smallest_damage_) sum.damaged += b.area;
+        if (damage_[i] > smallest(i)) sum.damaged += b.area;
         if (damage_[i] >= 1.0) sum.broken += b.area;
+        run = damage_[i] >= 1.0 ? run + b.area : 0.0;
+        if (sum.broken == sum.bonded) sum.upstream = run;
     }
+    sum.downstream = run;
     return sum;
 }
 
@@ -417,7 +488,7 @@ double BondLaw::broken(Index first, Index pairs) const
     double spent = 0.0, all = 0.0;
     for (Index i = first; i < first + pairs; ++i) {
         const BondStrength& b = strength_[static_cast<std::size_t>(i)];
-        spent += damage_[i] * (b.tension_energy + b.shear_energy);
+        spent += b.spent(damage_[i]) * (b.tension_energy + b.shear_energy);
         all += b.tension_energy + b.shear_energy;
     }
     return all > 0.0 ? spent / all : 0.0;
@@ -436,7 +507,7 @@ VectorXd BondLaw::excess(const ContactSolution& solution) const
 void BondLaw::damage_more(Index pair, double share)
 {
     double& damage = damage_[pair];
-    damage = damage == 0.0 ? smallest_damage_ : std::min(1.0, (1.0 + share) * damage);
+    damage = damage == 0.0 ? smallest(pair) : std::min(1.0, (1.0 + share) * damage);
 }
 
 std::unique_ptr<BondLaw> BondLaw::released() const

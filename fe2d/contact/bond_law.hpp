@@ -14,12 +14,22 @@ struct BondStrength {
     double shear = 0.0;          ///< c A [N/m]
     double tension_energy = 0.0; ///< G_I A [J/m]
     double shear_energy = 0.0;   ///< G_II A [J/m]
-    double opening = 0.0;        ///< w_I = 2 G_I/f_t: opening that breaks it [m]
-    double slip = 0.0;           ///< w_II = 2 G_II/c [m]
+    double opening = 0.0;        ///< w_I = G_I/(f_t S(1)): opening that breaks it [m]
+    double slip = 0.0;           ///< w_II = G_II/(c S(1)) [m]
     double friction = 0.0;       ///< mu for the first damage [-]
     BondUnloading unloading = BondUnloading::origin;
+    BondSoftening softening = BondSoftening::linear;
+    double increase = 1.0;       ///< of strengths and energies in motion, over those at rest [-]
 
     bool any() const { return tension > 0.0 || shear > 0.0; }
+
+    /// Share of the strength that is left at damage κ. Linear 1 - κ; exponential (e^(-Nκ) - e^(-N))/(1 - e^(-N)), N = ln 1000.
+    double left(double damage) const;
+    double slope(double damage) const; ///< -d left/dκ
+    double work(double damage) const;  ///< S(κ) = ∫ left dκ from 0; S(1) is 1/2 where linear, 0.1438 where exponential
+    double spent(double damage) const; ///< share of the fracture energy that is gone at κ, what is stored left out
+    double softness(double damage) const { return left(damage) / damage; } ///< h
+    double damage_at(double softness) const;                               ///< κ with this h
 };
 
 /// How far a joint has cracked [m].
@@ -27,6 +37,10 @@ struct BondLengths {
     double bonded = 0.0;  ///< of the intact joint; 0: it has no bond
     double damaged = 0.0; ///< has reached its strength and softened, broken length included
     double broken = 0.0;  ///< carries nothing but friction any more
+    double upstream = 0.0, downstream = 0.0; ///< of it, from that end on without a bonded pair between
+
+    double ligament() const { return bonded - broken; }
+    bool through() const { return broken >= bonded * (1.0 - 1e-9); } ///< from end to end: sums round
 };
 
 /// The bond of one pair. Without tensile strength opening breaks it as slip does, w_I = w_II, and takes no work across the
@@ -37,23 +51,24 @@ BondStrength bond_strength(double area, double friction, double cohesion, const 
 /// Bond with fracture energy (JOINTS 1): a cohesive law in two modes beside Coulomb's friction. With g⁺ = max(g, 0) and the
 /// largest damage κ ever,
 ///
-///     ε = √((g⁺/w_I)² + (s/w_II)²),   κ = max(κ, min(ε, 1)),   h = (1 - κ)/κ,
+///     ε = √((g⁺/w_I)² + (s/w_II)²),   κ = max(κ, min(ε, 1)),   h = left(κ)/κ,
 ///
-/// the bond pulls with f_t h g⁺/w_I and c h s/w_II: its strength falls linearly along any straight path, which costs
+/// the bond pulls with f_t h g⁺/w_I and c h s/w_II: along any straight path its strength falls as BondStrength::left says, linear
+/// or exponential, which costs
 /// G_I cos²ψ + G_II sin²ψ (Camanho & Dávila 2002; beside friction Alfano & Sacco 2006). A pair is rigid until tension and
 /// shear beyond friction reach √((-λ_n/f_tA)² + (|λ_t|/cA)²) = 1. Unloading goes to the origin; `plastic` unloads along
 /// the joint with the stiffness at first damage.
 ///
 /// A step in time finds x by Newton's iteration: each solution has the force of the law at the strains of the one before, and
-/// its tangent as Z, which along a straight path is -f_t A/w_I, the line of the law itself. The tangent of mixed modes is not
+/// its tangent as Z, which along a straight path is -f_t A slope(κ)/w_I, with linear softening the line of the law itself. The tangent of mixed modes is not
 /// symmetric unless G_I = G_II. Statics, where V may be singular, and plastic unloading find the damage by fixed points
-/// κ = ε(x(κ)), pair by pair with a secant. A step in time is too long where the bond softens faster than what is around unloads, V - diag(A f_t/w_I, A c/w_II) not positive
+/// κ = ε(x(κ)), pair by pair with a secant. A step in time is too long where the bond softens faster than what is around unloads, V - diag(A f_t/w_I, A c/w_II) slope(κ) not positive
 /// definite on the pairs that break: there it may have more than one answer. V grows as 1/Δt².
 class BondLaw final : public JointLaw {
 public:
     /// @param first_damage  κ₀ of a pair that has just reached its strength: it gives way by κ₀ w before it softens, with
     /// (1 - κ₀)/κ₀ times the stiffness of a bond half broken. The law's limit κ₀ -> 0 is rigid; loads and energies are off
-    /// by a share of about κ₀.
+    /// by a share of about κ₀. Exponential softening begins at the same opening κ₀ 2G/f, where 1 - 2κ₀ of f is left.
     explicit BondLaw(std::vector<BondStrength> pairs, double first_damage = 1e-3);
 
     std::unique_ptr<JointLaw> clone() const override { return std::make_unique<BondLaw>(*this); }
@@ -64,6 +79,10 @@ public:
     JointEnergy energy() const override;
     void save(JointLawState& state) const override;
     void restore(const JointLawState& state) override;
+
+    /// Strengths and energies as in motion, BondStrength::increase times those at rest, or at rest again. A damaged bond keeps
+    /// its stiffness, so no force changes: its damage becomes that which has the same line to the origin.
+    void set_motion(bool moving);
 
     const std::vector<BondStrength>& strength() const { return strength_; }
     const Eigen::VectorXd& damage() const { return damage_; }    ///< κ of each pair: 0 intact, 1 broken [-]
@@ -96,6 +115,7 @@ private:
     };
 
     Strain strain(Eigen::Index pair, const ContactSolution& solution) const;
+    double smallest(Eigen::Index pair) const; ///< κ₀ of the pair
     bool by_tangent(Eigen::Index pair) const; ///< does the step at hand find it by Newton's iteration?
     double least_damage(Eigen::Index pair) const; ///< of the step at hand, of a pair that is damaged
     Pull pull(Eigen::Index pair, const Strain& strain) const;
@@ -131,6 +151,7 @@ private:
     int solutions_ = 0;
     bool held_ = false;
     bool static_ = true;
+    bool moving_ = false; ///< of set_motion()
 };
 
 } // namespace damslip::fe2d

@@ -124,6 +124,7 @@ void CrackLines::add_line(const Scene& scene, const ContactStructure& structure,
     made.tension = lift.strength.bond.tensile_strength;
     made.bonded = breaks_by_energy(lift.strength);
     made.together = bond_loss(lift.strength) == BondLoss::together;
+    made.increase = lift.strength.bond.dynamic_increase;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         PairOfLine pair;
         pair.area = plane.area[static_cast<Index>(i)];
@@ -140,7 +141,8 @@ void CrackLines::add_line(const Scene& scene, const ContactStructure& structure,
     lines_.push_back(std::move(made));
 }
 
-double CrackLines::Line::index(const CrackLines& of, const VectorXd& u, const VectorXd& v, double& distance) const
+double CrackLines::Line::index(const CrackLines& of, const VectorXd& u, const VectorXd& v, bool moving,
+                               double& distance) const
 {
     constexpr double no_end = std::numeric_limits<double>::infinity();
     double largest = 0.0, all_normal = 0.0, all_shear = 0.0, all_bond = 0.0;
@@ -163,7 +165,8 @@ double CrackLines::Line::index(const CrackLines& of, const VectorXd& u, const Ve
             const auto share = [](double force, double strength) {
                 return force <= 0.0 ? 0.0 : strength > 0.0 ? force / strength : no_end;
             };
-            count(std::hypot(share(-y, tension * pair.area), share(over, bond)), pair);
+            const double factor = moving ? increase : 1.0;
+            count(std::hypot(share(-y, tension * pair.area), share(over, bond)) / factor, pair);
         } else if (!(y > 0.0)) // nothing holds tension
             count(no_end, pair);
         else if (!together || bond == 0.0)
@@ -373,7 +376,7 @@ void CrackWatch::look(double time, const VectorXd& u, const VectorXd& v, const V
     for (std::size_t k = 0; k < lines_.lines_.size(); ++k) {
         if (last_[k] < near_strength && steps_ % line_steps != 0) continue;
         double distance = 0.0;
-        last_[k] = lines_.lines_[k].index(lines_, u, v, distance);
+        last_[k] = lines_.lines_[k].index(lines_, u, v, time > 0.0, distance);
         TiedLift& lift = figures.lifts[k];
         if (last_[k] <= lift.index) continue;
         lift.index = last_[k];

@@ -90,7 +90,9 @@ private:
         double friction = 0.0, cohesion = 0.0, tension = 0.0; ///< μ, c, f_t of the pairs [-, Pa, Pa]
         bool bonded = false;                                  ///< breaks by energy
         bool together = false;                                ///< c is lost of the whole line at once
-        double index(const CrackLines& of, const Eigen::VectorXd& u, const Eigen::VectorXd& v, double& distance) const;
+        double increase = 1.0;                                ///< of its bond in motion, Bond::dynamic_increase [-]
+        double index(const CrackLines& of, const Eigen::VectorXd& u, const Eigen::VectorXd& v, bool moving,
+                     double& distance) const;
     };
     struct Patch {
         Row stress;

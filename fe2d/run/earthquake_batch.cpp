@@ -186,7 +186,9 @@ std::vector<RunResult> EarthquakeRun::shake(int halvings, std::span<BatchedRun* 
 std::unique_ptr<EarthquakePass> EarthquakeRun::pass_of(const BatchedRun& batched, int halvings, const PassSteps& steps) const
 {
     const Rest at_rest = rest(batched);
-    DynamicContact start(operators_, at_rest.load, at_rest.start, batched.memory, scene_.contact, options_.contact);
+    ContactMemory memory = batched.memory;
+    if (auto* bond = memory.laws.find<BondLaw>()) bond->set_motion(true);
+    DynamicContact start(operators_, at_rest.load, at_rest.start, memory, scene_.contact, options_.contact);
     if (adapts_steps(batched)) start.control(control_of(batched, halvings));
     PlayedGround ground(*batched.motion, damping_.mass, damping_.constants.mass);
     const double interval = frame_interval(ground.samples_end());
@@ -398,12 +400,18 @@ void EarthquakeRun::end_run(const ContactMotion& dynamics, const Strength& stren
         lift.largest_opening = largest(h.largest_opening);
         lift.largest_rocking = largest(h.rocking);
         const auto number = static_cast<Index>(k + 1);
+        const Mesh& mesh = structure_->model().mesh;
+        const Point a = mesh.nodes[static_cast<std::size_t>(mesh.lifts[k].lower_nodes.front())],
+                    b = mesh.nodes[static_cast<std::size_t>(mesh.lifts[k].lower_nodes.back())];
+        lift.dip = std::atan2(a.y - b.y, b.x - a.x);
         if (const auto* bond = end.contact.laws.find<BondLaw>())
             lift.bond = bond->lengths(planes.first(number), planes[number].pairs());
     }
     if (const auto* anchors = end.contact.laws.find<AnchorLaw>()) result.anchors = anchors->outcomes();
+    ContactMemory still = end.contact;
+    if (auto* bond = still.laws.find<BondLaw>()) bond->set_motion(false);
     result.state = {end.contact.force,  end.contact.opening,    end.contact.slip, {}, {},
-                    end.contact.states, end.contact.laws.save()};
+                    end.contact.states, still.laws.save()};
     strength_at_end.save(result.state);
     result.displacement = displacement_of(end.u, end.rock);
     if (result.zero_displacement.size() > 0) result.displacement -= result.zero_displacement;
@@ -429,8 +437,20 @@ void EarthquakeRun::end_run(const ContactMotion& dynamics, const Strength& stren
     const SplitLoad before = load_of(batched);
     const bool drains_lost = result.base_water && result.base_water->drains_lost;
     const CrackedUplift& uplift_after = drains_lost ? options_.drain_loss->uplift_after : options_.uplift_after;
-    result.after = stage_after(*statics, *structure_, uplift_after, crack, load, strength_at_end, end.contact,
-                               &before, structure_->slides_far() ? Relaxation{} : relaxation());
+    result.after = stage_after(*statics, *structure_, uplift_after, crack, load, strength_at_end, still, &before,
+                               structure_->slides_far() ? Relaxation{} : relaxation());
+    if (scene_.seam_body) return;
+    for (std::size_t k = 0; k < std::min(result.lifts.size(), result.after.lifts.size()); ++k) {
+        const auto number = static_cast<Index>(k + 1);
+        const PlaneBalance& balance = result.after.lifts[k];
+        LiftResult& lift = result.lifts[k];
+        if (!(lift.bond.broken > 0.0) || !std::isfinite(balance.sliding_factor)) continue;
+        const double friction =
+            strength_at_end.law().friction.segment(planes.first(number), planes[number].pairs()).minCoeff();
+        const double head = head_in_crack(scene_, joints_of(scene_)[k], planes[number], lift.bond);
+        lift.cut_factor = std::max(
+            0.0, balance.sliding_factor - friction * head / std::abs(balance.resultant.shear_force));
+    }
 }
 
 SlideWatch EarthquakeRun::slide_watch(const BatchedRun& batched, double record_end) const

@@ -79,6 +79,9 @@ struct LiftResult {
     double largest_opening = 0.0;                                 ///< [m]
     double largest_rocking = 0.0;                                 ///< largest |rotation| [rad]
     BondLengths bond;                                             ///< at the end
+    double dip = 0.0; ///< of the joint against the level, positive where it falls downstream [rad]
+    /// Sliding factor after the earthquake with head_in_crack() [-]; NaN: nothing is broken, or there is no shear.
+    double cut_factor = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct RunResult {

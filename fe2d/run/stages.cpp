@@ -3,6 +3,9 @@
 #include "fe2d/contact/anchor_law.hpp"
 #include "fe2d/model/static_solution.hpp"
 #include "fe2d/run/static_contact.hpp"
+#include "scene/section.hpp"
+#include "scene/uplift_models.hpp"
+#include "scene/water.hpp"
 
 #include <fmt/format.h>
 
@@ -357,6 +360,30 @@ StageResult solve_stage(StaticContact& statics, const ContactStructure& structur
         read_state(planes, k, memory, law, result.lifts[static_cast<std::size_t>(k - 1)]);
     strength.follow(memory);
     return result;
+}
+
+double head_in_crack(const Scene& scene, const LiftJoint& lift, const Plane& plane, const BondLengths& crack)
+{
+    const VectorXd distance = plane.distance.array() - plane.distance[0];
+    const PressureProfile water = lift_water_profile(scene, lift, distance[distance.size() - 1]);
+    const double unit_weight = water_unit_weight(scene) * share_above(scene.section, lift.elevation);
+    double up = scene.reservoir ? unit_weight * std::max(0.0, scene.reservoir->level - lift.elevation) : 0.0,
+           down = scene.tailwater ? unit_weight * std::max(0.0, scene.tailwater->level - lift.elevation) : 0.0;
+    if (crack.through()) up = down = std::max(up, down);
+    const double from = crack.upstream / plane.share, to = plane.length() - crack.downstream / plane.share;
+    const double at_from = crack.upstream > 0.0 ? up - pressure_at(water, from) : 0.0,
+                 at_to = crack.downstream > 0.0 ? down - pressure_at(water, to) : 0.0;
+    double sum = 0.0;
+    for (Index i = 0; i < plane.pairs(); ++i) {
+        const double x = distance[i], now = pressure_at(water, x);
+        double more = water.empty() ? 0.0 : at_from + (at_to - at_from) * (x - from) / (to - from);
+        if (crack.upstream > 0.0 && x <= from)
+            more = up - now;
+        else if (crack.downstream > 0.0 && x >= to)
+            more = down - now;
+        sum += std::max(0.0, more) * plane.area[i] / plane.share; // pressures are per metre of dam
+    }
+    return sum;
 }
 
 StageResult stage_after(StaticContact& statics, const ContactStructure& structure, const CrackedUplift& uplift,

@@ -107,6 +107,11 @@ StageResult solve_stage(StaticContact& statics, const ContactStructure& structur
                         const SplitLoad& load, Strength& strength, ContactMemory& memory,
                         const SplitLoad* before = nullptr, const Relaxation& relax = {});
 
+/// What full head in the broken part of a lift joint adds to the water in it [N/m]: that of the face from which it is broken; of a
+/// joint broken from face to face the larger one. From a tip on to the other end the surplus falls on a line, but there is none in
+/// a lift without water. Nowhere is there less than before.
+double head_in_crack(const Scene& scene, const LiftJoint& lift, const Plane& plane, const BondLengths& crack);
+
 /// The static state after an earthquake: cohesion is lost where the joint has opened or slipped, friction is that of the path,
 /// and the uplift has its crack where the base has opened, in the earthquake or under these loads.
 /// @param uplift  under a base with cracks from heel and toe; empty: as before the earthquake @param cracked  at least

@@ -260,14 +260,14 @@ void check_bond(const Contact& c, const std::string& table, Findings& f)
     const Bond& bond = c.bond;
     if (loss != BondLoss::fracture) {
         for (const auto& [name, unit] :
-             {std::pair("tensile_strength", "kPa"), std::pair("fracture_energy_tension", "N_m"),
-              std::pair("fracture_energy_shear", "N_m")})
+             {std::pair("tensile_strength", "_kPa"), std::pair("fracture_energy_tension", "_N_m"),
+              std::pair("fracture_energy_shear", "_N_m"), std::pair("softening", ""), std::pair("dynamic_increase", "")})
             if (f.given(key(name)))
                 f.wrong(key(name),
-                        fmt::format("{}_{} is given, but the bond is lost {}.", key(name), unit,
+                        fmt::format("{}{} is given, but the bond is lost {}.", key(name), unit,
                                     loss == BondLoss::together ? "together" : "by pairs"),
                         "bond = \"fracture\" with fracture_energy_shear_N_m",
-                        fmt::format("write  bond = \"fracture\"  with its energies, or delete {}_{}", name, unit));
+                        fmt::format("write  bond = \"fracture\"  with its energies, or delete {}{}", name, unit));
         return;
     }
     if (!c.cohesion_lost_at_slip)
@@ -288,6 +288,13 @@ void check_bond(const Contact& c, const std::string& table, Findings& f)
         f.wrong(key("tensile_strength"),
                 fmt::format("{} has tensile strength, but no {}.", table, key("fracture_energy_tension_N_m")),
                 "G_I above 0 [N_m]", "add  fracture_energy_tension_N_m = 150");
+    const bool exponential = bond.softening == BondSoftening::exponential, increased = bond.dynamic_increase != 1.0;
+    if ((exponential || increased) && bond.unloading == BondUnloading::plastic) {
+        const char* with = exponential ? "softening" : "dynamic_increase";
+        f.wrong(key(with), fmt::format("{} is given with {} = \"plastic\".", key(with), key("unloading")),
+                "unloading = \"origin\" with exponential softening or dynamic_increase",
+                fmt::format("delete {}, or unloading", with));
+    }
     note_weak_cohesion(c, table, f);
 }
 

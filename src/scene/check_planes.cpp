@@ -1,6 +1,7 @@
 #include "core/text.hpp"
 #include "core/units.hpp"
 #include "scene/check.hpp"
+#include "scene/joint_bond.hpp"
 #include "scene/planes.hpp"
 #include "scene/section.hpp"
 
@@ -53,6 +54,12 @@ void check_lift_choices(const Scene& s, Findings& f)
                         "bond = \"bonded\" with cohesion_kPa and tensile_strength_kPa",
                         fmt::format("write  bond = \"bonded\"  or delete {}_kPa", key));
     }
+    for (const char* key : {"softening", "dynamic_increase"})
+        if (f.given(fmt::format("lifts.{}", key)) && !breaks_by_energy(l.strength))
+            f.wrong(fmt::format("lifts.{}", key),
+                    fmt::format("lifts.{} is given, but the lifts have no bond that breaks by energy.", key),
+                    "bond = \"bonded\" with fracture_energy_tension_N_m and fracture_energy_shear_N_m",
+                    fmt::format("add the fracture energies, or delete {}", key));
     const bool drained = l.uplift == LiftUplift::drains;
     needs(drained && !l.drains_distance, "uplift", "lifts.uplift = \"drains\" without lifts.drains_distance_m.",
           "add  drains_distance_m = 3  to [lifts]");

@@ -41,9 +41,10 @@ double bond_element_length(const Contact& strength, double modulus)
     double length = HUGE_VAL;
     const Bond& bond = strength.bond;
     if (bond.tensile_strength > 0.0 && bond.tension_energy)
-        length = characteristic_length(modulus, *bond.tension_energy, bond.tensile_strength) / 4.0;
+        length = characteristic_length(modulus, *bond.tension_energy, bond.tensile_strength) / (4.0 * bond.dynamic_increase);
     if (strength.cohesion > 0.0 && bond.shear_energy)
-        length = std::min(length, characteristic_length(modulus, *bond.shear_energy, strength.cohesion) / 4.0);
+        length = std::min(length, characteristic_length(modulus, *bond.shear_energy, strength.cohesion) /
+                                      (4.0 * bond.dynamic_increase));
     return length;
 }
 
@@ -53,7 +54,7 @@ CarriedBond carried_bond(const Contact& strength, double modulus, double element
     CarriedBond carried{bond.tensile_strength, strength.cohesion, false};
     const auto lower = [&](double& stress, const std::optional<double>& energy) {
         if (!(stress > 0.0) || !energy) return;
-        const double most = std::sqrt(modulus * *energy / (4.0 * element_length));
+        const double most = std::sqrt(modulus * *energy / (4.0 * bond.dynamic_increase * element_length));
         if (stress <= most * (1.0 + 1e-9)) return;
         stress = most;
         carried.lowered = true;

@@ -19,10 +19,12 @@ bool breaks_by_energy(const Contact& strength);
 /// @param modulus  harmonic mean of E/(1 - nu²) of both sides [Pa] @param energy  [N/m] @param strength  [Pa], > 0
 double characteristic_length(double modulus, double energy, double strength);
 
-/// Longest element on a bonded joint: ℓ_ch/4 of its more brittle mode [m].
+/// Longest element on a bonded joint: ℓ_ch/4 of its more brittle mode, in the earthquake (f and G times
+/// Bond::dynamic_increase) [m].
 double bond_element_length(const Contact& strength, double modulus);
 
-/// Strengths that elements of some length can carry: f and c, at most √(E' G/(4h)) with the energies kept (Bažant & Oh 1983).
+/// Strengths at rest that elements of some length can carry: f and c, at most √(E' G/(4h d)) with the energies kept (Bažant & Oh
+/// 1983), d = Bond::dynamic_increase.
 struct CarriedBond {
     double tensile_strength = 0.0; ///< [Pa]
     double cohesion = 0.0;         ///< [Pa]

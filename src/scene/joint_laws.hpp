@@ -19,6 +19,12 @@ enum class BondUnloading {
     plastic ///< with the first stiffness: opening and slip remain
 };
 
+/// How a bond loses its strength f beyond the peak, w its opening or slip.
+enum class BondSoftening {
+    linear,     ///< f (1 - w f/(2G))
+    exponential ///< f exp(-w f/G), down to a thousandth of f
+};
+
 /// Bond of a joint beside its cohesion. FE runs only, but for `loss`.
 struct Bond {
     std::optional<BondLoss> loss;         ///< none: `fracture` with shear energy, else `together`
@@ -26,6 +32,8 @@ struct Bond {
     std::optional<double> tension_energy; ///< G_I, to open 1 m² [N/m]; needed with f_t where `fracture`
     std::optional<double> shear_energy;   ///< G_II, to shear 1 m² [N/m]
     BondUnloading unloading = BondUnloading::origin;
+    BondSoftening softening = BondSoftening::linear;
+    double dynamic_increase = 1.0; ///< strengths and energies in an earthquake over those at rest [-]
 };
 
 /// Friction that falls (or rises) with the rate of slip: mu_k + (mu - mu_k) exp(-|v| / v_c), mu over slip as without it.

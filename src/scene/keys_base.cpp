@@ -291,7 +291,20 @@ std::vector<Key> bond_keys()
                                  "FE, a damaged bond unloads to the origin, or with its first stiffness (plastic)",
                                  "\"plastic\"",
                                  choice_in(&Contact::bond, &Bond::unloading,
-                                           {{"origin", BondUnloading::origin}, {"plastic", BondUnloading::plastic}})))};
+                                           {{"origin", BondUnloading::origin}, {"plastic", BondUnloading::plastic}}))),
+        only_where<Contact>(
+            [](const Contact& c) { return c.bond.softening != BondSoftening::linear; },
+            word("softening", "linear",
+                 "FE, bond fracture: beyond its strength f the bond falls on a line (linear) or as f exp(-w f/G), w its "
+                 "opening or slip (exponential)",
+                 "\"exponential\"",
+                 choice_in(&Contact::bond, &Bond::softening,
+                           {{"linear", BondSoftening::linear}, {"exponential", BondSoftening::exponential}}))),
+        only_where<Contact>([](const Contact& c) { return c.bond.dynamic_increase != 1.0; },
+                            number("dynamic_increase", none, Range::between(1, 3), "1",
+                                   "FE, bond fracture: strengths and fracture energies of the bond in an earthquake over "
+                                   "those at rest",
+                                   "1.2", in(&Contact::bond, &Bond::dynamic_increase)))};
 }
 
 std::vector<Key> rate_keys()
@@ -403,6 +416,8 @@ std::vector<Key> lift_joint_keys(const std::vector<Key>& contact)
                                                    "fracture_energy_tension",
                                                    "fracture_energy_shear",
                                                    "unloading",
+                                                   "softening",
+                                                   "dynamic_increase",
                                                    "kinetic_friction_ratio",
                                                    "characteristic_rate",
                                                    "relaxation_time",

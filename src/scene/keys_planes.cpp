@@ -26,7 +26,7 @@ KeyGroup lifts_group(const std::vector<Key>& contact)
              "\"bonded\"", choice(&L::bonded, std::vector<std::pair<std::string, bool>>{{"jointed", false},
                                                                                         {"bonded", true}}))};
     std::set<std::string> strength = coulomb;
-    strength.insert({"fracture_energy_tension", "fracture_energy_shear"});
+    strength.insert({"fracture_energy_tension", "fracture_energy_shear", "softening", "dynamic_increase"});
     for (Key& key : strength_keys(contact, &L::strength, strength)) list.push_back(std::move(key));
     const std::vector<Key> more{
         only_where<L>([](const L& l) { return l.bonded; },

@@ -45,6 +45,8 @@ contact.tensile_strength_kPa : 100 | 300 : contact.bond="fracture"; contact.cohe
 contact.fracture_energy_tension_N_m : 50 | 150 : contact.bond="fracture"; contact.cohesion_kPa=100; contact.tensile_strength_kPa=100; contact.fracture_energy_shear_N_m=1500
 contact.fracture_energy_shear_N_m : 200 | 1500 : contact.bond="fracture"; contact.cohesion_kPa=50
 contact.unloading : "origin" | "plastic" : contact.bond="fracture"; contact.cohesion_kPa=300; contact.tensile_strength_kPa=100; contact.fracture_energy_tension_N_m=150; contact.fracture_energy_shear_N_m=1500
+contact.softening : "linear" | "exponential" : contact.bond="fracture"; contact.cohesion_kPa=300; contact.tensile_strength_kPa=100; contact.fracture_energy_tension_N_m=150; contact.fracture_energy_shear_N_m=1500
+contact.dynamic_increase : 1 | 1.3 : contact.bond="fracture"; contact.cohesion_kPa=300; contact.tensile_strength_kPa=100; contact.fracture_energy_tension_N_m=150; contact.fracture_energy_shear_N_m=1500
 contact.kinetic_friction_ratio : 0.9 | 0.7 : contact.characteristic_rate_m_s=0.01; contact.relaxation_time_s=0.05
 contact.characteristic_rate_m_s : 0.01 | 0.05 : contact.kinetic_friction_ratio=0.8; contact.relaxation_time_s=0.05
 contact.relaxation_time_s : 0.05 | 0.2 : contact.kinetic_friction_ratio=0.8; contact.characteristic_rate_m_s=0.01

@@ -65,6 +65,29 @@ TEST(JointInput, ABondThatBreaksHasItsStrengthsAndEnergies)
         {"contact.cohesion_lost_at_slip = false with a bond that breaks.", "delete cohesion_lost_at_slip"});
 }
 
+TEST(JointInput, SofteningAndDynamicIncreaseNeedABondThatBreaks)
+{
+    const auto has = [](const std::string& contact, const std::vector<std::string>& parts) {
+        const std::string message = joint_message(contact);
+        for (const std::string& part : parts) EXPECT_NE(message.find(part), std::string::npos) << message;
+    };
+    const std::string breaks = "cohesion_kPa = 500\nfracture_energy_shear_N_m = 1500\n";
+    EXPECT_EQ(joint_message(breaks + "softening = \"exponential\"\ndynamic_increase = 1.2\n"), "(accepted)");
+    has("cohesion_kPa = 500\nsoftening = \"exponential\"\n",
+        {"dam.toml:9:1: error: contact.softening is given, but the bond is lost together.", "or delete softening"});
+    has("cohesion_kPa = 500\nbond = \"pairs\"\ndynamic_increase = 1.2\n",
+        {"dam.toml:10:1: error: contact.dynamic_increase is given, but the bond is lost by pairs.", "or delete dynamic_increase"});
+    has(breaks + "dynamic_increase = 0.5\n", {"contact.dynamic_increase = 0.5 is not allowed.", "a number 1 ... 3"});
+    has(breaks + "softening = \"linaer\"\n", {"dam.toml:10:13: error:", "one of \"linear\", \"exponential\""});
+    has(breaks + "unloading = \"plastic\"\nsoftening = \"exponential\"\n",
+        {"contact.softening is given with contact.unloading = \"plastic\".", "delete softening, or unloading"});
+    has(breaks + "unloading = \"plastic\"\ndynamic_increase = 1.2\n",
+        {"contact.dynamic_increase is given with contact.unloading = \"plastic\".", "delete dynamic_increase, or unloading"});
+    has("[lifts]\nspacing_m = 3\nfriction = 0.8\nbond = \"bonded\"\ncohesion_kPa = 500\ntensile_strength_kPa = 300\n"
+        "dynamic_increase = 1.2\n",
+        {"lifts.dynamic_increase is given, but the lifts have no bond that breaks by energy.", "add the fracture energies"});
+}
+
 TEST(JointInput, LawsOfJointsNeedContactThatIsExactAndStepsThatAreImplicit)
 {
     const std::string breaks = "bond = \"fracture\"\ncohesion_kPa = 500\nfracture_energy_shear_N_m = 1500\n";

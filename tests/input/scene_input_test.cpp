@@ -61,7 +61,7 @@ TEST(SceneInput, UnknownKeyGetsASuggestion)
         "residual_slip_m, residual_path, friction_table_m, separation, enforcement, "
         "tangential_stiffness_N_m3, slip_tolerance, normal, pressure_at_zero_clearance_kPa, "
         "clearance_at_zero_pressure_m, bond, tensile_strength_kPa, fracture_energy_tension_N_m, "
-        "fracture_energy_shear_N_m, unloading, kinetic_friction_ratio, characteristic_rate_m_s, relaxation_time_s, "
+        "fracture_energy_shear_N_m, unloading, softening, dynamic_increase, kinetic_friction_ratio, characteristic_rate_m_s, relaxation_time_s, "
         "relaxation_slip_m, restitution\n"
         "  fix:      write  residual_path");
     EXPECT_SAYS(message(with("friction = 0.77", "friction = 0.77\ncohesion_kpa = 3")),

@@ -489,6 +489,7 @@ private:
             key("contact", "fracture_energy_tension_N_m", draw_.log_between(0.1, 1e4));
         }
         if (draw_.chance(0.3)) key("contact", "unloading", "\"plastic\"");
+        else add_bond_in_motion("contact");
     }
 
     /// Of the first lift joint, by energies.
@@ -504,6 +505,13 @@ private:
         if (!draw_.chance(0.6)) return;
         key("[lift_joint]", "tensile_strength_kPa", draw_.log_between(1, 3000));
         key("[lift_joint]", "fracture_energy_tension_N_m", draw_.log_between(0.1, 1e4));
+        add_bond_in_motion("[lift_joint]");
+    }
+
+    void add_bond_in_motion(const std::string& table)
+    {
+        if (draw_.chance(0.4)) key(table, "softening", "\"exponential\"");
+        if (draw_.chance(0.3)) key(table, "dynamic_increase", draw_.log_between(1, 3));
     }
 
     void add_water()

@@ -90,10 +90,44 @@ TEST(AdaptiveLifts, GiveTheHistoriesOfAllLiftsActiveFromTheStart)
         }
         for (const fe2d::TiedLift& lift : b.cracks.lifts) EXPECT_LT(lift.index, fe2d::wake_index) << lift.name;
     }
+    // A lift that would slide with full head in its crack is named.
+    std::vector<ContactRun> wet = all;
+    const auto headline = [&] { return pages::fe_headline(ready_of(dam_text("all")).scene, wet).sentence; };
+    EXPECT_EQ(headline().find("full head"), std::string::npos) << headline();
+    wet.front().fe.lifts[1].cut_factor = 0.83;
+    EXPECT_NE(headline().find("lift joint at 12 m does not stand with full head in its crack after the earthquake, sliding factor 0.83."),
+              std::string::npos)
+        << headline();
     // Something must have broken, or this compares dams of one piece.
     EXPECT_TRUE(std::any_of(adaptive.begin(), adaptive.end(), [](const ContactRun& r) {
         return r.fe.history.energy.back().bond_fracture > 1.0;
     }));
+}
+
+/// In motion strengths and energies are `dynamic_increase` times those at rest: nothing breaks at rest here, so the histories are those of
+/// a bond that has as much from the start. The elements are the same, G/f² of the earthquake counts.
+TEST(DynamicIncrease, IsABondThatMuchStronger)
+{
+    const auto run_of = [](const std::string& bond) {
+        std::string text = dam_text("all", {}, "3.5");
+        text.erase(text.rfind("[[motion.record]]"));
+        const std::size_t at = text.find("cohesion_kPa"), end = text.find("active");
+        text.replace(at, end - at, bond);
+        text.replace(text.find("[motion]\n"), 9, "[motion]\npolarity = 1\n");
+        return runs_of(ready_of(text)).front().fe;
+    };
+    const std::string at_rest = "cohesion_kPa = 800\ntensile_strength_kPa = 500\nfracture_energy_tension_N_m = 150\n"
+                                "fracture_energy_shear_N_m = 1500\n";
+    const fe2d::RunResult increased = run_of(at_rest + "dynamic_increase = 1.2\n"), plain = run_of(at_rest),
+                          strong = run_of("cohesion_kPa = 960\ntensile_strength_kPa = 600\n"
+                                          "fracture_energy_tension_N_m = 180\nfracture_energy_shear_N_m = 1800\n");
+    ASSERT_EQ(increased.status, strong.status);
+    EXPECT_LT(fe2d::largest_difference(increased.history.slip, strong.history.slip), 1e-9);
+    EXPECT_LT(fe2d::largest_difference(increased.history.crest_x, strong.history.crest_x), 1e-9);
+    EXPECT_GT(strong.history.energy.back().bond_fracture, 1.0); // it cracks, and so otherwise than with its strength at rest
+    EXPECT_NEAR(increased.history.energy.back().bond_fracture, strong.history.energy.back().bond_fracture, 1e-6);
+    EXPECT_GT(fe2d::largest_difference(plain.history.crest_x, strong.history.crest_x), 1e-6);
+    EXPECT_LT(increased.energy_error, 1e-9);
 }
 
 /// A step with lift joints on a rigid base keeps A_d Δu = b + k s + Dᵀ λ̃ and has the gaps asked for, whatever they are.
@@ -229,7 +263,7 @@ TEST(Cracks, LargestTensionIsThatOfTheElements)
 /// Koyna's neck at 0.47 g: it cracks from face to face, within a fifth of a second, and the top stands; on two meshes.
 TEST(Cracks, CutTheNeckOfKoynaOnTwoMeshes)
 {
-    const auto run_on = [](const std::string& size) {
+    const auto run_on = [](const std::string& size, const std::string& softening = "linear") {
         const std::string data = std::string(source_dir()) + "/records/data/ec8_3.0_";
         const Ready ready = ready_of(
             "[section]\npolygon_m = [[0, 0], [70, 0], [19.25, 66.5], [14.8, 103], [0, 103]]\n"
@@ -237,7 +271,7 @@ TEST(Cracks, CutTheNeckOfKoynaOnTwoMeshes)
             "[reservoir]\nlevel_m = 90.5\nmodel = \"added-mass\"\n[uplift]\nmodel = \"none\"\n"
             "[lifts]\nelevations_m = [66]\nbond = \"bonded\"\nfriction = 1\ncohesion_kPa = 3120\n"
             "tensile_strength_kPa = 2400\nfracture_energy_tension_N_m = 200\nfracture_energy_shear_N_m = 1000\n"
-            "uplift = \"none\"\n[time]\nsubsteps = 0\n[mesh]\nsize_m = " + size +
+            "softening = \"" + softening + "\"\nuplift = \"none\"\n[time]\nsubsteps = 0\n[mesh]\nsize_m = " + size +
             "\n[motion]\nscale_to_pga_m_s2 = 4.61\npolarity = 1\n"
             "[[motion.record]]\nname = \"a\"\nhorizontal = \"" + data + "h.csv\"\nvertical = \"" + data + "v.csv\"\n");
         return std::move(runs_of(ready).front().fe);
@@ -247,8 +281,8 @@ TEST(Cracks, CutTheNeckOfKoynaOnTwoMeshes)
         const auto at = std::find_if(broken.begin(), broken.end(), [&](double x) { return x > 0.0 && x >= length; });
         return run.history.time[static_cast<std::size_t>(at - broken.begin())];
     };
-    const fe2d::RunResult coarse = run_on("3"), fine = run_on("1.6");
-    for (const fe2d::RunResult* run : {&coarse, &fine}) {
+    const fe2d::RunResult coarse = run_on("3"), fine = run_on("1.6"), curved = run_on("3", "exponential");
+    for (const fe2d::RunResult* run : {&coarse, &fine, &curved}) {
         ASSERT_EQ(run->status, Status::at_rest) << text_of(run->notes);
         EXPECT_EQ(run->counts.unresolved, 0);
         EXPECT_LT(run->energy_error, 1e-9);
@@ -259,6 +293,13 @@ TEST(Cracks, CutTheNeckOfKoynaOnTwoMeshes)
         EXPECT_LT(neck.largest_rocking, 0.02);                  // of the top: it rocks and stands
         EXPECT_EQ(run->after.status, fe2d::StageStatus::ok);
         EXPECT_LT(first(*run, neck.bond.bonded - 1e-9) - first(*run, 0.0), 0.2);
+        // The top by hand: its weight less the head of 24.5 m below all of it, against the water before it.
+        EXPECT_EQ(neck.bond.ligament(), 0.0);
+        EXPECT_EQ(neck.dip, 0.0);
+        const double width = 19.25 + (70.0 - 19.25) * 0.5 / 66.5, head = 90.5 - 66.0;
+        const double weight = 2643.0 * 9.81 * (0.5 * (14.8 + 19.25) * 36.5 + 0.5 * (19.25 + width) * 0.5);
+        const double factor = (weight - 9810.0 * head * width) / (0.5 * 9810.0 * head * head);
+        EXPECT_NEAR(neck.cut_factor, factor, 1e-6 * factor);
     }
     const double depth = fine.lifts.front().bond.damaged;
     EXPECT_NEAR(coarse.lifts.front().bond.damaged, depth, 0.15 * depth);
@@ -373,6 +414,76 @@ TEST(TracedCracks, SayWhatTheyNeed)
     EXPECT_NE(said("").find("add  tensile_strength_MPa"), std::string::npos);
     EXPECT_EQ(said("tensile_strength_MPa = 2\n"), "");
     EXPECT_NE(said("tensile_strength_MPa = 2\n[time]\nscheme = \"central-difference\"\n").find("hht"), std::string::npos);
+/// Full head in the broken part of a lift of 10 m, 20 m below the reservoir: in a lift with water on a line the surplus falls on a
+/// line from the tip to the other face, in a dry one it ends at the tip.
+TEST(Cracks, HeadInALiftIsThatOfItsFace)
+{
+    Scene scene = parse_scene("[section]\npolygon_m = [[0, 0], [10, 0], [10, 40], [0, 40]]\n[dam]\ndensity_kg_m3 = 2400\n"
+                              "[contact]\nfriction = 1\n[reservoir]\nlevel_m = 30\nmodel = \"added-mass\"\n"
+                              "[tailwater]\nlevel_m = 15\n[uplift]\nmodel = \"none\"\n",
+                              "dam.toml");
+    LiftJoint lift;
+    lift.elevation = 10.0;
+    const Eigen::Index pairs = 1001;
+    fe2d::Plane plane;
+    plane.distance = Eigen::VectorXd::LinSpaced(pairs, 0.0, 10.0);
+    plane.area = Eigen::VectorXd::Constant(pairs, 0.01);
+    plane.area[0] = plane.area[pairs - 1] = 0.005;
+    const double up = 9810.0 * 20.0, down = 9810.0 * 5.0;
+    const auto added = [&](JointWater water, double upstream, double downstream) {
+        lift.water = water;
+        return fe2d::head_in_crack(scene, lift, plane, {10.0, 10.0, upstream + downstream, upstream, downstream});
+    };
+    EXPECT_NEAR(added(JointWater::none, 4.005, 0.0), 4.005 * up, 1e-9 * up);
+    EXPECT_NEAR(added(JointWater::none, 4.005, 2.005), 4.005 * up + 2.005 * down, 1e-9 * up);
+    // On a line: 4 m with `up`, then straight to `down` at the other face, less the trapezoid that was there.
+    EXPECT_NEAR(added(JointWater::linear, 4.0, 0.0), 4.0 * up + 6.0 * 0.5 * (up + down) - 10.0 * 0.5 * (up + down), 0.01 * up);
+    EXPECT_NEAR(added(JointWater::linear, 10.0, 10.0), 10.0 * up - 10.0 * 0.5 * (up + down), 1e-9 * up);
+    EXPECT_EQ(added(JointWater::linear, 0.0, 3.0), 0.0); // from the tailwater: no less than there was
+}
+
+/// Koyna's section overtopped, E 25 GPa, f_t 1 MPa, G 200 N/m (Jirásek & Zimmermann after Saksala & Mäkinen 2020): the heel cracks first,
+/// then the upstream face higher up, of six lifts at that at 60 m.
+TEST(Cracks, OvertoppedKoynaCracksAtItsHeelThenHigherUpstream)
+{
+    // Damaged pairs of the base and of each lift, and whether they go on from the upstream face.
+    const auto cracks_of = [](double water) {
+        const std::string bond = "cohesion_kPa = 3000\ntensile_strength_kPa = 1000\nfracture_energy_tension_N_m = 200\n"
+                                 "fracture_energy_shear_N_m = 2000\nsoftening = \"exponential\"\n";
+        const Ready ready = ready_of(
+            "[section]\npolygon_m = [[0, 0], [70, 0], [19.25, 66.5], [14.8, 103], [0, 103]]\n"
+            "[dam]\ndensity_kg_m3 = 2643\nyoung_modulus_GPa = 25\npoisson_ratio = 0.2\n[contact]\nfriction = 1\n" +
+            bond + "[reservoir]\nlevel_m = " + std::to_string(water) +
+            "\novertopped = true\nmodel = \"hydrostatic\"\n[uplift]\nmodel = \"none\"\n[time]\nsubsteps = 0\n"
+            "[lifts]\nelevations_m = [30, 45, 55, 60, 66, 75]\nbond = \"bonded\"\nactive = \"all\"\nuplift = \"none\"\n"
+            "friction = 1\n" + bond);
+        const fe2d::EarthquakeRun model(ready.scene, {});
+        GroundMotion still;
+        still.dt = 0.01;
+        still.accel_h.assign(3, 0.0);
+        const fe2d::RunResult run = model.run(still);
+        EXPECT_EQ(run.status, Status::at_rest) << text_of(run.notes);
+        const std::vector<double>& damage = run.state.laws.at("bond_damage");
+        const fe2d::ContactPlanes& planes = model.structure().planes();
+        std::vector<int> cracks;
+        for (Eigen::Index k = 0; k < planes.count(); ++k) {
+            const auto first = damage.begin() + planes.first(k), end = first + planes[k].pairs();
+            const auto tip = std::find(first, end, 0.0);
+            EXPECT_TRUE(std::all_of(tip, end, [](double x) { return x == 0.0; })) << water << " m, plane " << k;
+            cracks.push_back(static_cast<int>(tip - first));
+        }
+        return cracks;
+    };
+    const std::vector<int> little = cracks_of(105.0), much = cracks_of(117.0);
+    EXPECT_GT(little[0], 3);
+    EXPECT_GT(much[0], little[0]);
+    for (std::size_t k = 1; k < little.size(); ++k) {
+        EXPECT_EQ(little[k], 0) << k;
+        if (k == 4) // at 60 m: a second crack, half through
+            EXPECT_GT(much[k], 10);
+        else
+            EXPECT_EQ(much[k], 0) << k;
+    }
 }
 
 /// Strength halfway below the stress: the answer says so, and PASS is no plain one.

@@ -5,6 +5,7 @@
 #include "fe2d/run/static_contact.hpp"
 #include "fe2d/run/static_relaxation.hpp"
 #include "fe2d/solver/dense_product.hpp"
+#include "scene/joint_bond.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 
 #include <cmath>
@@ -71,6 +72,7 @@ public:
         return -solution.force;
     }
     const BondLaw& bond() const { return *memory_.laws.find<BondLaw>(); }
+    void set_in_motion() { memory_.laws.find<BondLaw>()->set_motion(true); }
 
 private:
     double stiffness_;
@@ -156,6 +158,76 @@ std::vector<Check> mixed_paths()
     return checks;
 }
 
+/// Exponential softening that ends where a thousandth of the strength is left: f (e^(-w/v) - e^(-N))/(1 - e^(-N)), N = ln 1000, with
+/// v so that the work is G.
+struct ExponentialBond {
+    double strength = 0.0, energy = 0.0; ///< f A [N/m], G A [J/m]
+    double n = std::log(1000.0), end = 1e-3;
+
+    double length() const { return energy / strength * (1.0 - end) / (1.0 - end * (1.0 + n)); } ///< v [m]
+    double width() const { return n * length(); }
+    double force(double w) const { return strength * (std::exp(-w / length()) - end) / (1.0 - end); }
+    /// Of the bond that is pulled open from 0 to w [J/m].
+    double work(double w) const
+    {
+        return strength * (length() * (1.0 - std::exp(-w / length())) - end * w) / (1.0 - end);
+    }
+};
+
+/// (CRACKS 3.4) Exponential softening and the rate factor of one pair.
+std::vector<Check> exponential_bar()
+{
+    const double area = 0.5, f_t = 1.5e6, energy = 150.0, rate = 1.2;
+    Bond law = bond_of(f_t, energy, 1.0);
+    law.softening = BondSoftening::exponential;
+    law.dynamic_increase = rate;
+    const BondStrength bond = fe2d::bond_strength(area, 0.0, 0.0, law);
+    const ExponentialBond exact{f_t * area, energy * area};
+    const double unit = energy / f_t, stiff = 4.0 * exact.strength / unit; // no snap-back
+    const auto open = [&](PulledBar& bar, double w, double force) { return bar.pull(w + force / stiff)[0]; };
+    std::vector<Check> checks;
+    PulledBar bar(stiff, bond);
+    checks.push_back({"force just before the peak", "N/m", exact.strength * (1 - 1e-6),
+                      bar.pull(exact.strength / stiff * (1 - 1e-6))[0], 1e-8, Measure::relative});
+    for (const double share : {0.25, 1.0, 3.0}) {
+        const double w = share * unit, force = open(bar, w, exact.force(w));
+        const std::string at = ", opening of " + std::to_string(share).substr(0, 4) + " G/f";
+        checks.push_back({"force" + at, "N/m", exact.force(w), force, 1e-7, Measure::relative});
+        checks.push_back({"force over f" + at + ": exp(-w f/G)", "-", std::exp(-share), force / exact.strength, 2.5e-3,
+                          Measure::absolute});
+    }
+    const double w = 3.0 * unit, force = exact.force(w), stored = 0.5 * force * w;
+    checks.push_back({"stored at 3 G/f", "J/m", stored, bar.bond().energy().stored, 1e-7, Measure::relative});
+    checks.push_back({"spent at 3 G/f", "J/m", exact.work(w) - stored, bar.bond().energy().bond_fracture, 1e-8,
+                      Measure::relative});
+    checks.push_back({"force when half closed: to the origin", "N/m", 0.5 * force, open(bar, 0.5 * w, 0.5 * force), 1e-7,
+                      Measure::relative});
+    bar.set_in_motion();
+    checks.push_back({"the same, damaged at rest and now in motion", "N/m", 0.5 * force, open(bar, 0.5 * w, 0.5 * force),
+                      1e-7, Measure::relative});
+    checks.push_back({"force further on, in motion", "N/m", rate * exact.force(1.5 * w),
+                      open(bar, 1.5 * w, rate * exact.force(1.5 * w)), 1e-7, Measure::relative});
+    for (const bool moving : {false, true}) {
+        PulledBar other(stiff * (moving ? rate : 1.0), bond);
+        if (moving) other.set_in_motion();
+        const double factor = moving ? rate : 1.0;
+        const int steps = 700;
+        double done = 0.0, before = factor * exact.strength; // rigid up to the strength
+        for (int k = 1; k <= steps; ++k) {
+            const double to = exact.width() * k / steps, from = exact.width() * (k - 1) / steps;
+            const double now = other.pull(to + exact.force(to) / stiff)[0];
+            done += 0.5 * (now + before) * (to - from);
+            before = now;
+        }
+        const std::string with = moving ? ", in motion" : "";
+        checks.push_back({"work of fracture" + with, "J/m", factor * energy * area, other.bond().energy().bond_fracture,
+                          1e-8, Measure::relative});
+        checks.push_back({"work of the force, summed up" + with, "J/m", factor * energy * area, done, 1e-4,
+                          Measure::relative});
+    }
+    return checks;
+}
+
 /// Largest share of `load` that pairs with these bonds carry on a body of stiffness V.
 double largest_load(const MatrixXd& stiffness, const VectorXd& load, std::vector<BondStrength> pairs, double step,
                     double first_damage = usual_first_damage)
@@ -215,6 +287,133 @@ std::vector<Check> peeled_arm()
     return checks;
 }
 
+/// A structure seen from its pairs, with one load t.
+struct LoadedStructure {
+    MatrixXd stiffness;      ///< V
+    VectorXd unit;           ///< λ of shut pairs under t = 1, 2m [-]
+    double compliance = 0.0; ///< displacement q of the load under t = 1, pairs shut [m per N/m]
+    double control = 0.0;    ///< C_c, see pull_open() [m per N/m]
+};
+
+/// What its load does while it opens: by Betti q = C t - λ₁ᵀx, so the strain energy is (C t² + xᵀV x)/2.
+struct PulledOpen {
+    double largest = 0.0;  ///< t [N/m]
+    double spent = 0.0;    ///< work of the load less the strain energy [J/m]
+    double fracture = 0.0; ///< of the law, with what it stores [J/m]
+    double last = 0.0;     ///< t at the end [N/m]
+    double broken = 0.0;   ///< [m]
+};
+
+/// The load follows t = (Δ + λ₁ᵀx)/C_c, Δ from one value to the next: what softens is seen with V + λ₁λ₁ᵀ/C_c, so with a small C_c the
+/// crack grows steadily and the load falls behind its peak. A step that has more than one answer is made in halves.
+PulledOpen pull_open(const LoadedStructure& of, std::vector<BondStrength> pairs, double first, double last, int steps)
+{
+    const Index m = static_cast<Index>(pairs.size());
+    fe2d::JointLawSolver solver(shared(of.stiffness + of.unit * of.unit.transpose() / of.control), {});
+    ContactMemory memory(m);
+    memory.laws = laws_of(std::move(pairs));
+    PulledOpen result;
+    double work = 0.0, displacement = 0.0, delta = 0.0;
+    for (double step = first; delta < last;) {
+        const VectorXd stuck = of.unit * ((delta + step) / of.control) + solver.stiffness()->rightCols(m) * memory.slip;
+        ContactSolution solution{memory.states, {}, {}};
+        fe2d::JointLaws laws = memory.laws;
+        const auto report = laws.solve(solver, stuck, {1.0, memory.opening, memory.slip, memory.states},
+                                       fe2d::uniform_law(m, 0.0), solution);
+        if (!report.resolved()) {
+            step *= 0.5;
+            if (step < 1e-5 * last) return {};
+            continue;
+        }
+        delta += step;
+        step = std::min(std::max(1e-12 * last, last - delta), (last - first) / steps);
+        laws.end();
+        memory.laws = std::move(laws);
+        memory.states = solution.states;
+        memory.opening = solution.displacement.head(m);
+        memory.slip += solution.displacement.tail(m);
+        VectorXd x(2 * m);
+        x << memory.opening, memory.slip;
+        const double load = (delta + of.unit.dot(x)) / of.control, now = of.compliance * load - of.unit.dot(x);
+        work += 0.5 * (load + result.last) * (now - displacement);
+        displacement = now;
+        result.last = load;
+        result.largest = std::max(result.largest, load);
+        result.spent = work - 0.5 * (of.compliance * load * load + x.dot(of.stiffness * x));
+    }
+    const BondLaw& bond = *memory.laws.find<BondLaw>();
+    result.fracture = bond.energy().bond_fracture + bond.energy().stored;
+    result.broken = bond.lengths(0, m).broken;
+    return result;
+}
+
+/// A column b wide, notched by 0.3 b at half its height and bent by a couple at its top.
+PulledOpen bent_column(double width, double element, const Bond& bond)
+{
+    const double notch = 0.3 * width, height = 3.0 * width;
+    Scene scene;
+    scene.section.polygon = {{0, 0}, {width, 0}, {width, height}, {0, height}};
+    scene.dam = {2400.0, 25e9, 0.2};
+    scene.mesh.size = 0.1 * width;
+    scene.mesh.contact_size = 0.1 * width;
+    LiftJoint lift;
+    lift.name = "notch";
+    lift.elevation = 0.5 * height;
+    lift.strength.bond = bond; // asks for elements of this length
+    lift.strength.bond.tensile_strength = std::sqrt(*joint_modulus(scene, false) * *bond.tension_energy / (4.0 * element));
+    scene.lift_joints = {lift};
+    scene.forces = {{"left", {0.0, height}, 0.0, 1.0 / width}, {"right", {width, height}, 0.0, -1.0 / width}}; // a couple of 1
+    const fe2d::EarthquakeRun run(scene, {});
+    const fe2d::ContactStructure& structure = run.structure();
+    fe2d::StaticContact statics(structure);
+    const fe2d::SplitLoad load = structure.split(run.stages().last() - run.stages().loads.front());
+    const Index m = structure.pairs();
+    LoadedStructure column{*statics.linear().stiffness(), statics.linear().shut_force(load), 0.0, 0.0};
+    column.compliance = load.dam.dot(statics.linear().displacements(load, VectorXd::Zero(2 * m)).dam);
+    column.control = 0.02 * column.compliance;
+    const fe2d::Plane& plane = structure.planes()[1];
+    std::vector<BondStrength> pairs(static_cast<std::size_t>(m));
+    for (Index i = 0; i < m; ++i) {
+        const Index k = i - structure.planes().first(1);
+        if (k < 0)
+            pairs[static_cast<std::size_t>(i)] = fe2d::bond_strength(1.0, 0.0, 1e12, bond_of(1e12, 1e12, 1e12)); // the base holds
+        else if (const double beyond = plane.distance[k] - plane.distance[0] - notch; beyond > -1e-9 * width)
+            pairs[static_cast<std::size_t>(i)] = fe2d::bond_strength((beyond < 1e-9 * width ? 0.5 : 1.0) * plane.area[k], 0.0,
+                                                                     3.0 * bond.tensile_strength, bond);
+    }
+    const double unit = width * width * std::sqrt(*joint_modulus(scene, false) * *bond.tension_energy / width);
+    return pull_open(column, pairs, 0.01 * unit * column.control, 3.0 * unit * column.control, 100); // to about 0.8 of the peak
+}
+
+/// (CRACKS 4.2) Notched column in bending: K = 6 M/b² √(πa) F(a/b) = √(E'G) (Tada, Paris & Irwin 1985, F within 0.5 %). With linear
+/// softening a crack is as if longer by 0.419 ℓ_ch at its largest load (Planas & Elices 1992, Int. J. Fracture 55, 153).
+std::vector<Check> notched_column()
+{
+    std::vector<Check> checks;
+    const double width = 10.0, energy = 150.0, modulus = 25e9 / (1.0 - 0.04), characteristic = 1.0; // ℓ_ch [m]
+    const auto moment = [&](double a) {
+        const double half = 0.5 * pi * a;
+        const double shape = std::sqrt(std::tan(half) / half) * (0.923 + 0.199 * std::pow(1.0 - std::sin(half), 4)) / std::cos(half);
+        return std::sqrt(modulus * energy) * width * width / (6.0 * std::sqrt(pi * a * width) * shape);
+    };
+    for (const BondSoftening softening : {BondSoftening::linear, BondSoftening::exponential})
+        for (const double cells : {80.0, 160.0, 240.0}) {
+            Bond bond = bond_of(std::sqrt(modulus * energy / characteristic), energy, 9.0 * energy);
+            bond.softening = softening;
+            const PulledOpen open = bent_column(width, width / cells, bond);
+            const std::string at = std::string(softening == BondSoftening::linear ? ", linear" : ", exponential") + ", " +
+                                   std::to_string(static_cast<int>(cells)) + " cells";
+            checks.push_back({"largest moment, at most that of a brittle notch" + at, "N", moment(0.3), open.largest, 0.0,
+                              Measure::upper_bound});
+            if (softening == BondSoftening::linear)
+                checks.push_back({"largest moment" + at, "N", moment(0.3 + 0.419 * characteristic / width), open.largest, 0.01,
+                                  Measure::relative});
+            checks.push_back({"work of the load, less strain energy, over G times the area" + at, "-", 1.0,
+                              open.spent / open.fracture, 1e-3, Measure::relative});
+        }
+    return checks;
+}
+
 /// (JOINTS 8.5) A plate glued along its length to a rigid plane, pulled along at one end (Volkersen 1938).
 std::vector<Check> sheared_plate()
 {
@@ -251,6 +450,7 @@ std::vector<Check> sheared_plate()
 struct PushedBlock {
     double mass = 1e6, strength = 2e6, width = 2e-3, friction = 1e6, push = 4e6; ///< M, cA, w, R, P
     double first_damage = usual_first_damage;                                    ///< κ₀
+    BondSoftening softening = BondSoftening::linear; ///< exponential: only for SteppedBlock::rate_squared and its work
 
     double drive() const { return push - friction; }
     double omega() const { return std::sqrt(strength / (mass * width)); }
@@ -293,11 +493,13 @@ SteppedBlock step_through(const PushedBlock& block, double dt)
     const double m = block.mass, pressed = 1e6;
     fe2d::JointLawSolver solver(shared(4 * m / (dt * dt) * MatrixXd::Identity(2, 2)), {});
     ContactMemory memory(1);
-    memory.laws =
-        laws_of({fe2d::bond_strength(1.0, 0.0, block.strength, bond_of(0.0, 1.0, block.work()))}, block.first_damage);
+    Bond bond = bond_of(0.0, 1.0, block.work());
+    bond.softening = block.softening;
+    memory.laws = laws_of({fe2d::bond_strength(1.0, 0.0, block.strength, bond)}, block.first_damage);
+    const double width = memory.laws.find<BondLaw>()->strength().front().slip;
     SteppedBlock result;
     double rate = 0.0, accel = block.drive() / m;
-    for (int step = 1; memory.slip[0] < block.width; ++step) {
+    for (int step = 1; memory.slip[0] < width; ++step) {
         VectorXd stuck(2);
         stuck << pressed, -block.push - 4 * m / dt * rate - m * accel;
         ContactSolution solution{memory.states, {}, {}};
@@ -313,7 +515,7 @@ SteppedBlock step_through(const PushedBlock& block, double dt)
         const double now = memory.slip[0], half = 0.5 * block.width;
         if (before < half && now >= half) result.late = step * dt - block.time(now);
     }
-    result.rate_squared = rate * rate - 2.0 * block.drive() / m * (memory.slip[0] - block.width);
+    result.rate_squared = rate * rate - 2.0 * block.drive() / m * (memory.slip[0] - width);
     result.work = memory.laws.energy().bond_fracture;
     return result;
 }
@@ -334,6 +536,16 @@ std::vector<Check> pushed_block()
         {"order in the step, half as long", "-", 2.0, std::log2(middle.late / fine.late), 0.05, Measure::absolute},
         {"rate^2 at which the bond is gone", "m^2/s^2", exact, fine.rate_squared, 1e-8, Measure::relative},
         {"work of fracture", "J/m", block.work(), fine.work, 1e-8, Measure::relative}};
+    // Exponential softening: what the push has done less G and what the first κ₀ 2G/f of the opening are softer than rigid.
+    PushedBlock curved;
+    curved.softening = BondSoftening::exponential;
+    const ExponentialBond law{curved.strength, curved.work()};
+    const double first = curved.first_damage * curved.width;
+    const double taken = law.energy - law.work(first) + 0.5 * first * law.force(first);
+    const SteppedBlock curve = step_through(curved, dt);
+    checks.push_back({"rate^2 at which the bond is gone, exponential", "m^2/s^2",
+                      2.0 * (curved.drive() * law.width() - taken) / curved.mass, curve.rate_squared, 1e-8, Measure::relative});
+    checks.push_back({"work of fracture, exponential", "J/m", law.energy, curve.work, 1e-8, Measure::relative});
     // Of a bond that is rigid at first: rate² by κ₀ cA w/M; the time by what the first κ₀ w take.
     for (const auto& [kappa, steps_before] : {std::pair{1e-3, 512.0}, std::pair{1e-5, 64.0}}) {
         PushedBlock other;
@@ -490,11 +702,19 @@ void add_fe_bond_cases(Registry& cases)
                      "A bond in series with a bar peaks at f_t A, softens by G_I, and snaps back iff L > E w/f_t.",
                      "closed form, linear softening", one_pair, pulled_bar});
     cases.push_back(
+        {"fe2d.bond.exponential",
+         "Exponential softening: force and energies at given openings, unloading to the origin, work G A; in motion 1.2 of all.",
+         "closed form", one_pair + " times the slope; 1e-4: trapezoids; 2.5e-3: the tail is cut at 1e-3", exponential_bar});
+    cases.push_back(
         {"fe2d.bond.mixed",
          "Straight paths in both modes cost G_I cos^2 + G_II sin^2; unloaded bonds give back what they stored.",
          "Camanho & Davila (2002)", one_pair + ", 2 of it in what is stored", mixed_paths});
     cases.push_back({"fe2d.bond.peel", "A cantilever peels off its base at sqrt(2 E I G)/a.", "beam theory, Griffith",
                      "3 %: the process zone at the tip, 0.05 long, counts to the arm", peeled_arm});
+    cases.push_back({"fe2d.bond.notch",
+                     "A notched column in bending breaks where K = sqrt(E' G), and its couple does the work G A, on three meshes.",
+                     "Tada, Paris & Irwin (1985); Planas & Elices (1992)",
+                     "1 %: F within 0.5 %, first order in l_ch/b; 1e-3: trapezoids of the couple", notched_column});
     cases.push_back({"fe2d.bond.plate", "A glued plate is pulled off at c l sin(L/l), long ones at sqrt(2 E t G).",
                      "Volkersen (1938), linear softening", "2 %: 40 cells, damage in steps of 1 %", sheared_plate});
     cases.push_back(

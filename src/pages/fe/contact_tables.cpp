@@ -470,16 +470,22 @@ Table bond_table(const std::vector<ContactRun>& runs)
          {{"bonded_length_m", "length", "m", 4}, [](const Row& r) { return r.lift.bond.bonded; }},
          {{"damaged_length_m", "damaged", "m", 4}, [](const Row& r) { return r.lift.bond.damaged; }},
          {{"broken_length_m", "broken", "m", 4}, [](const Row& r) { return r.lift.bond.broken; }},
+         {{"ligament_m", "ligament", "m", 4}, [](const Row& r) { return r.lift.bond.ligament(); }},
+         {{"dip_deg", "dip", "°", 3}, [](const Row& r) { return r.lift.dip / units::degree; }},
          {{"first_damage_s", "first damage", "s", 4}, [=](const Row& r) { return first(r, r.history.damaged, 0.0); }},
          {{"first_broken_s", "first broken", "s", 4}, [=](const Row& r) { return first(r, r.history.broken, 0.0); }},
          {{"cut_s", "cut", "s", 4},
           [=](const Row& r) { return first(r, r.history.broken, all * r.lift.bond.bonded); }},
          {{"largest_opening_mm", "opening", "mm", 3}, [](const Row& r) { return 1e3 * r.lift.largest_opening; }},
          {{"largest_slip_mm", "largest slip", "mm", 4}, [](const Row& r) { return 1e3 * r.lift.largest_slip; }},
-         {{"largest_rocking_rad", "rocking", "rad", 3}, [](const Row& r) { return r.lift.largest_rocking; }}},
+         {{"largest_rocking_rad", "rocking", "rad", 3}, [](const Row& r) { return r.lift.largest_rocking; }},
+         {{"cut_factor", "FS, full head", "–", 4},
+          [](const Row& r) { return std::isnan(r.lift.cut_factor) ? Cell() : Cell(r.lift.cut_factor); }}},
         rows,
-        {"damaged: has reached its strength and softened; broken: of it, what carries nothing but friction any more; cut: "
-         "broken from face to face."});
+        {"damaged: has reached its strength and softened; broken: of it, what carries nothing but friction any more; "
+         "ligament: what is not broken; cut: broken from face to face. Dip: positive where the joint falls downstream. FS, full "
+         "head: sliding factor of what is above, after the earthquake, with the head of the reservoir or the tailwater in what is "
+         "broken."});
 }
 
 Table traced_table(const std::vector<TracedCrack>& cracks, const Scene& scene)

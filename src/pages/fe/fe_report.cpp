@@ -164,6 +164,11 @@ std::string remarks(const std::vector<ContactRun>& runs)
                          *before = i == 0 ? nullptr : &runs[i - 1]; // polarities have their stages in common
         if (falls_after(r)) out += " After the earthquake it does not stand: " + text_of(r.fe.after.notes());
         if (open_after(r)) out += " The state after the earthquake is not resolved: " + text_of(r.fe.after.notes());
+        for (const fe2d::LiftResult& lift : r.fe.lifts)
+            if (lift.cut_factor < 1.0)
+                out += fmt::format(" {}: what is above {} does not stand with full head in its crack after the earthquake, "
+                                   "sliding factor {:.3g}.",
+                                   r.label(), words_of(lift), lift.cut_factor);
         const bool worst = &r == &worst_of(runs) && !reported(r.fe.status, r.fe.max_slip);
         const bool said = before && before->fe.status == r.fe.status && sentences[i - 1] == sentences[i];
         if (r.fe.status != Status::at_rest && !worst && !said) out += " " + r.label() + ": " + sentences[i];
