@@ -92,10 +92,24 @@ struct Form {
     double per_a_h = 0.0, per_a_v = 0.0, constant = 0.0;
 
     double at(double a_h, double a_v) const { return per_a_h * a_h + per_a_v * a_v + constant; }
-    double largest(const AccelRange& range) const ///< with the ground at rest, too
+    double largest(const AccelRange& range) const
     {
-        return std::max({per_a_h * range.h_min, per_a_h * range.h_max, 0.0}) +
-               std::max({per_a_v * range.v_min, per_a_v * range.v_max, 0.0}) + constant;
+        return std::max(per_a_h * range.h_min, per_a_h * range.h_max) + std::max(per_a_v * range.v_min, per_a_v * range.v_max) +
+               constant;
+    }
+    /// At some sample, or with the ground at rest: it is linear between samples.
+    bool rises_above_zero(const SkippingMotion& skipping, int polarity) const
+    {
+        const GroundMotion& motion = skipping.motion();
+        if (constant > 0.0) return true;
+        if (largest(turned(skipping.whole(), polarity)) <= 0.0) return false;
+        const auto below = [&](const AccelRange& range) { return largest(turned(range, polarity)) <= 0.0; };
+        for (std::size_t i = 0; i < skipping.intervals(); ++i) {
+            if ((i = skipping.skip(i, below)) == skipping.intervals()) break;
+            for (const std::size_t k : {i, i + 1})
+                if (at(polarity * motion.accel_h[k], motion.accel_v.empty() ? 0.0 : motion.accel_v[k]) > 0.0) return true;
+        }
+        return false;
     }
 };
 
@@ -121,20 +135,20 @@ struct MovingStage {
         gain = {wedge->per_a_h - behind->per_a_h, wedge->per_a_v - behind->per_a_v, wedge->constant - behind->constant};
     }
 
-    bool may_run_ahead(const AccelRange& range) const
+    bool may_run_ahead(const SkippingMotion& motion, int polarity) const
     {
-        return wedge && (of_wedge.largest(range) > 0.0 || gain.largest(range) > 0.0);
+        return wedge && (of_wedge.rises_above_zero(motion, polarity) || gain.rises_above_zero(motion, polarity));
     }
 };
 
 class SeamRun {
 public:
-    SeamRun(const std::vector<SeamStage>& stages, const SlideOptions& options, SeamWorks works, const AccelRange& range)
+    SeamRun(const std::vector<SeamStage>& stages, const SlideOptions& options, SeamWorks works, const SkippingMotion& motion)
         : stages_(stages.begin(), stages.end()), two_way_(options.sliding.two_way), books_(works == SeamWorks::booked),
           has_wedge_(stages_.front().wedge.has_value()), gravity_(stages.front().chain.gravity)
     {
         for (const MovingStage& s : stages_) {
-            runs_ahead_ = runs_ahead_ || s.may_run_ahead(range);
+            runs_ahead_ = runs_ahead_ || s.may_run_ahead(motion, options.polarity);
             grows_ = grows_ || s.growth != 0.0;
         }
         out_.body_blocks = stages.front().body.blocks.size();
@@ -521,10 +535,10 @@ double SeamLedger::work() const
     return sum;
 }
 
-bool may_run_ahead(const std::vector<SeamStage>& stages, const AccelRange& range)
+bool may_run_ahead(const SkippingMotion& motion, const std::vector<SeamStage>& stages, int polarity)
 {
     return std::any_of(stages.begin(), stages.end(), [&](const SeamStage& s) {
-        return has_wedge(s) && MovingStage(s).may_run_ahead(range);
+        return has_wedge(s) && MovingStage(s).may_run_ahead(motion, polarity);
     });
 }
 
@@ -554,7 +568,7 @@ SeamSlide slide_seam(const SkippingMotion& skipping, const std::vector<SeamStage
                      SeamWorks works)
 {
     const GroundMotion& motion = skipping.motion();
-    SeamRun run(stages, options, works, turned(skipping.whole(), options.polarity));
+    SeamRun run(stages, options, works, skipping);
     const auto at = [&](std::size_t i) { return options.polarity * motion.accel_h[i]; };
     const auto up = [&](std::size_t i) { return motion.accel_v.empty() ? 0.0 : motion.accel_v[i]; };
     const auto rests = [&](const AccelRange& range) {

@@ -58,8 +58,9 @@ inline AccelRange turned(const AccelRange& range, int polarity)
     return polarity < 0 ? AccelRange{-range.h_max, -range.h_min, range.v_min, range.v_max} : range;
 }
 
-/// May the wedge slide without being pushed, in some motion within the range? @returns false: it surely does not
-bool may_run_ahead(const std::vector<SeamStage>& stages, const AccelRange& range);
+/// Does some sample of the motion let the wedge slide without being pushed, or slow down less than the body?
+/// @returns false: surely the two never part
+bool may_run_ahead(const SkippingMotion& motion, const std::vector<SeamStage>& stages, int polarity);
 
 /// Exact between events as slide(): start, stop, stages, parting, and the closing of the gap are roots in time. The wedge parts
 /// where the face between it and the body would have to pull; its friction stops it. An impact is plastic: the rate v of the body and w of the wedge, both as slip of the body, become

@@ -200,20 +200,20 @@ SeamStage over_a_flat_wedge()
     return stage;
 }
 
-/// The same behind a block whose segment dips by 6°, with friction in the face between them.
+/// The same behind a block whose segment dips by 18°, with friction in the face between them.
 SeamStage bent_body()
 {
     SeamStage stage = over_a_flat_wedge();
     ChainBlock first;
     first.mass = 1.5e6;
-    first.dip = 6.0 * in_rad;
+    first.dip = 18.0 * in_rad;
     first.length = 20.0;
     first.friction = 0.3;
     first.uplift = 3e6;
-    first.force = {4e6, -1e6};
+    first.force = {1e6, -1e6};
     ChainInterface face;
     face.length = 12.0;
-    face.friction = 0.2;
+    face.friction = 0.6;
     for (Chain* chain : {&stage.chain, &stage.body}) {
         chain->blocks.insert(chain->blocks.begin(), first);
         chain->interfaces.insert(chain->interfaces.begin(), face);
@@ -355,8 +355,9 @@ TEST(SeamMotion, AWedgeThatSlowsDownLaterRunsAhead)
     EXPECT_GT(found.slide.max_gap, 0.01);
     EXPECT_GT(found.ledger.impact, 0.0);
     EXPECT_EQ(found.least_pressure, 0.0); // nothing pulls
-    EXPECT_TRUE(sliding::may_run_ahead({stage}, {-4.5, 25.0, 0.0, 0.0}));
-    EXPECT_FALSE(sliding::may_run_ahead({body_and_wedge()}, {-9.0, 14.0, 0.0, 0.0}));
+    const sliding::SkippingMotion strong(swings(25.0, 4.5)), usual(swings(14.0, 9.0));
+    EXPECT_TRUE(sliding::may_run_ahead(strong, {stage}, 1));
+    EXPECT_FALSE(sliding::may_run_ahead(usual, {body_and_wedge()}, 1));
     // A wedge that the ground moves before the body: it slides by itself, and the body follows.
     SeamStage weaker = stage;
     weaker.chain.blocks[1].friction = std::tan(26.0 * in_rad);

@@ -112,9 +112,9 @@ bool moves_back(const Scene& scene, const RigidModel& model, const sliding::Acce
 }
 
 /// May its wedge run ahead of it?
-bool wedge_may_part(const RigidModel& model, const sliding::AccelRange& range, int polarity)
+bool wedge_may_part(const RigidModel& model, const sliding::SkippingMotion& motion, int polarity)
 {
-    return model.bodies && sliding::may_run_ahead(*model.bodies, sliding::turned(range, polarity));
+    return model.bodies && sliding::may_run_ahead(motion, *model.bodies, polarity);
 }
 
 /// The slide of a seam that leaves its wedge, or whose wedge leaves it; none: they stay together, or it does not stand.
@@ -123,7 +123,7 @@ std::optional<sliding::SlideResult> both_ways(const Scene& scene, const RigidMod
 {
     if (motion.motion().is_sequence() || model.state != sliding::StaticState::at_rest) return std::nullopt;
     const bool back = moves_back(scene, model, motion.whole(), polarity);
-    if (!back && !wedge_may_part(model, motion.whole(), polarity)) return std::nullopt;
+    if (!back && !wedge_may_part(model, motion, polarity)) return std::nullopt;
     sliding::SeamSlide found =
         sliding::slide_seam(motion, *model.bodies, {scene.sliding, polarity}, sliding::SeamWorks::left_out);
     if (!back && found.partings == 0) return std::nullopt; // slide() is that to round-off, and sooner
@@ -211,7 +211,7 @@ std::vector<sliding::SlideResult> slide_models(const Scene& scene, std::span<con
     std::vector<std::size_t> places;
     for (std::size_t i = 0; i < models.size(); ++i)
         if (together && !moves_back(scene, *models[i], motion.whole(), polarity) &&
-            !wedge_may_part(*models[i], motion.whole(), polarity)) {
+            !wedge_may_part(*models[i], motion, polarity)) {
             stages.push_back(&models[i]->stages);
             places.push_back(i);
         } else {
