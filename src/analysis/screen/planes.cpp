@@ -174,7 +174,7 @@ void add_work(const Scene& scene, Sliding& s, const std::vector<sliding::Skippin
         }
     if (pulls)
         warn("as it slows down its blocks would pull on each other or on their planes, which is not followed.");
-    if (ahead) warn("its wedge slows down later than the dam and runs ahead of it.");
+    if (ahead) warn("its wedge runs ahead of the dam: it starts sooner or slows down later.");
     if (back) warn("its wedge would slide back into the gap that the dam leaves; that is not followed.");
     if (worst && worst->slide.slide.max_slip > 0.0) planes.works.push_back(std::move(*worst));
 }
