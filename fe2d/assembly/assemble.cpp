@@ -149,6 +149,25 @@ Eigen::VectorXd gravity_load(const Mesh& mesh, const DofMap& dofs, const Materia
     });
 }
 
+Eigen::VectorXd locked_stress_load(const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& stress)
+{
+    return assemble_vector(mesh, dofs, [&](const Element& element, const Corners& corners) -> ElementVector {
+        assert(element.linear());
+        Eigen::Vector4d at = Eigen::Vector4d::Zero();
+        for (int i = 0; i < element.size(); ++i) at[i] = stress[element.nodes[static_cast<std::size_t>(i)]];
+        if (at.isZero(0.0)) return {};
+        ElementVector force = ElementVector::Zero(2 * element.size());
+        const auto add = [&](const QuadraturePoint& p) {
+            for (int i = 0; i < element.size(); ++i) force[2 * i] -= p.weight * p.shape.dot(at) * p.gradient(0, i);
+        };
+        if (element.size() == 4)
+            for (const QuadraturePoint& p : q4_points(corners)) add(p);
+        else
+            for (const QuadraturePoint& p : t3_points(corners)) add(p);
+        return element.share * force;
+    });
+}
+
 namespace {
 
 constexpr int undecided = -2;

@@ -102,6 +102,10 @@ Eigen::VectorXd inertia_vector(const Mesh& mesh, const DofMap& dofs, const Mater
 Eigen::VectorXd gravity_load(const Mesh& mesh, const DofMap& dofs, const Materials& materials, double gravity,
                              std::span<const Region> regions);
 
+/// What a horizontal stress that no strain has made pushes with: - integral of B^T (stress, 0, 0) [N/m]. In itself it balances.
+/// @param stress  of each node, linear in each element [Pa, tension positive]
+Eigen::VectorXd locked_stress_load(const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& stress);
+
 /// Mass, damping and stiffness stored at the same places, zeros included, so that a matrix made of them at any frequency
 /// has the pattern of each and is ordered once.
 struct SharedPattern {

@@ -1,6 +1,7 @@
 #include "fe2d/model/model.hpp"
 
 #include "core/input_error.hpp"
+#include "scene/planes.hpp"
 #include "scene/rock_mass.hpp"
 
 #include <algorithm>
@@ -92,6 +93,22 @@ void assemble_mass(const Scene& scene, const ModelOptions& options, Model& model
         model.loaded = model.materials;
 }
 
+/// What k0 adds to the horizontal stress of elastic rock between fixed sides, under the weight of the column above.
+Eigen::VectorXd locked_stress(const Scene& scene, const Model& model)
+{
+    const Material& rock = scene.foundation->material;
+    const double elastic = rock.poisson_ratio / (1.0 - rock.poisson_ratio), more = *scene.foundation->k0 - elastic;
+    const Polyline ground = ground_line(scene);
+    Eigen::VectorXd stress = Eigen::VectorXd::Zero(model.mesh.node_count());
+    for (const Element& element : model.mesh.elements)
+        if (element.region != Region::dam)
+            for (const int node : element.all()) {
+                const Point p = model.mesh.nodes[static_cast<std::size_t>(node)];
+                stress[node] = -more * rock.density * scene.gravity * std::max(0.0, ground_level(ground, p.x) - p.y);
+            }
+    return stress;
+}
+
 /// A tied base shares the unknowns of facing nodes.
 Scene with_facing_nodes(Scene scene)
 {
@@ -117,6 +134,7 @@ Model build_model_on(Mesh mesh, const Scene& scene, const ModelOptions& options)
     model.dofs = displacement_dofs(model.mesh, options.base, options.edges);
     model.stiffness = stiffness_matrix(model.mesh, model.dofs, model.materials);
     model.mass_kind = options.mass;
+    if (scene.seam_body && scene.foundation->k0) model.locked_stress = locked_stress(scene, model);
     assemble_mass(scene, options, model);
     model.inertia_x = inertia_vector(model.mesh, model.dofs, model.loaded, {1.0, 0.0}, options.mass);
     model.inertia_y = inertia_vector(model.mesh, model.dofs, model.loaded, {0.0, 1.0}, options.mass);

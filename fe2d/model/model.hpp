@@ -58,6 +58,8 @@ struct Model {
                              ///< where it has mass and fixed edges. On free edges the rock moves relative to the free
                              ///< field, which balances its own inertia
     SparseMatrix added_mass; ///< of the water on the upstream face [kg/m]
+    Eigen::VectorXd locked_stress; ///< horizontal, of each node of rock, besides what its strain makes: foundation.k0 on a seam
+                                   ///< [Pa, tension positive]; linear in each element; empty: none
     Eigen::VectorXd inertia_x,
         inertia_y; ///< (mass of `loaded` + added mass) times a rigid translation in x, y, fixed nodes included [kg/m]
     Eigen::Vector2d total_mass =

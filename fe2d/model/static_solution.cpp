@@ -138,6 +138,10 @@ StaticLoads static_loads(const Scene& scene, const Model& model)
     StaticLoads loads;
     if (scene.seam_body)
         loads.rock.push_back(weight("weight of the rock", scene, model, {Region::rock, Region::block}));
+    if (model.locked_stress.size() > 0)
+        loads.rock.push_back(make("horizontal stress of the rock", model, [&](const DofMap& dofs) {
+            return locked_stress_load(model.mesh, dofs, model.locked_stress);
+        }));
     loads.gravity.push_back(weight("weight of the dam", scene, model, {Region::dam}));
     if (!scene.seam_body && scene.stages.gravity == GravityStage::dam_and_rock && model.mesh.has_rock())
         loads.gravity.push_back(weight("weight of the rock", scene, model, {Region::rock, Region::curtain}));
@@ -300,6 +304,20 @@ StressField stress_field(const Mesh& mesh, const DofMap& dofs, const Materials& 
     }
     for (int n = 0; n < mesh.node_count(); ++n)
         if (elements_at[n] > 0) field.nodal.col(n) /= elements_at[n];
+    return field;
+}
+
+StressField stress_field(const Model& model, const Eigen::VectorXd& displacement)
+{
+    StressField field = stress_field(model.mesh, model.dofs, model.materials, displacement);
+    const Eigen::VectorXd& locked = model.locked_stress;
+    if (locked.size() == 0) return field;
+    field.nodal.row(0) += locked.transpose();
+    for (int e = 0; e < model.mesh.element_count(); ++e) {
+        const Element& element = model.mesh.elements[static_cast<std::size_t>(e)];
+        for (int i = 0; i < element.size(); ++i)
+            field.centre(0, e) += locked[element.nodes[static_cast<std::size_t>(i)]] / element.size();
+    }
     return field;
 }
 

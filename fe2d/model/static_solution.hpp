@@ -74,6 +74,8 @@ struct StressField {
 /// @param displacement  of the unknowns, length dofs.count [m]
 StressField stress_field(const Mesh& mesh, const DofMap& dofs, const Materials& materials,
                          const Eigen::VectorXd& displacement);
+/// The same with the model's locked stress.
+StressField stress_field(const Model& model, const Eigen::VectorXd& displacement);
 
 struct PrincipalStress {
     double major = 0.0; ///< the larger (more tensile) one [Pa]

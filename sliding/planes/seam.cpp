@@ -501,7 +501,8 @@ bool SeamGround::serves(const Seam& seam) const
 namespace {
 
 SlipStages stages_of(const Scene& scene, const Rock& rock, const Seam& seam, std::optional<double> angle, double growth);
-std::vector<SeamStage> bodies_of(const Scene& scene, const Rock& rock, const Seam& seam, std::optional<double> angle);
+std::vector<SeamStage> bodies_of(const Scene& scene, const Rock& rock, const Seam& seam, std::optional<double> angle,
+                                 double growth);
 
 /// Angles of the wedge at the least F of each state and, last, at the least a_y; none: no wedge, or none that stands.
 std::vector<std::optional<double>> least_angles(const Scene& scene, const Seam& seam, const std::vector<GroundState>& states,
@@ -622,21 +623,21 @@ SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<Gro
         plane.growth = yield_growth(chain, scene.foundation->material.density);
         if (plane.growth != 0.0) plane.valid_slip = 0.05 * std::abs(plane.yield / plane.growth);
     }
-    plane.bodies = bodies_of(scene, on_rock, seam, plane.angle);
+    const double growth = scene.planes.geometry == PlaneGeometry::linear ? plane.growth : 0.0;
+    plane.bodies = bodies_of(scene, on_rock, seam, plane.angle, growth);
     if (!plane.bodies.empty()) {
         const SeamStage& first = plane.bodies.front();
         plane.upstream = yield_upstream_alone(first.body);
         plane.impact = chain_law(first.body).mass / chain_law(first.chain).mass;
-        if (!chain.interfaces.empty()) {
-            Chain wedge{{chain.blocks[1]}, {}, chain.gravity, 0};
-            const ChainInterface& face = chain.interfaces[0];
+        if (const std::size_t n = first.body.blocks.size(); n + 1 == chain.blocks.size()) {
+            Chain wedge{{chain.blocks[n]}, {}, chain.gravity, 0};
+            const ChainInterface& face = chain.interfaces[n - 1];
             wedge.blocks[0].force.x += face.water * std::sin(face.angle);
             wedge.blocks[0].force.y -= face.water * std::cos(face.angle);
             plane.wedge_back = yield_upstream_alone(wedge).law.constant;
         }
     }
-    plane.stages =
-        stages_of(scene, on_rock, seam, plane.angle, scene.planes.geometry == PlaneGeometry::linear ? plane.growth : 0.0);
+    plane.stages = stages_of(scene, on_rock, seam, plane.angle, growth);
     return plane;
 }
 
@@ -724,18 +725,43 @@ SlipStages stages_of(const Scene& scene, const Rock& on_rock, const Seam& seam, 
     return stages;
 }
 
-std::vector<SeamStage> bodies_of(const Scene& scene, const Rock& on_rock, const Seam& seam, std::optional<double> angle)
+/// Blocks of a body that go upstream together; those before them stay, since they would have to be pulled. At least the dam's.
+std::size_t blocks_back(const Chain& body)
+{
+    std::size_t count = body.blocks.size();
+    for (std::size_t face = body.dam; face + 1 < count; ++face) {
+        Chain back = going_upstream(body);
+        back.blocks.resize(count);
+        back.interfaces.resize(count - 1);
+        const ChainLaw law = chain_law(back);
+        if (law.locked || chain_forces(back, law, law.yield(), 0.0).thrust[face] >= 0.0) continue;
+        count = face + 1;
+    }
+    return count;
+}
+
+std::vector<SeamStage> bodies_of(const Scene& scene, const Rock& on_rock, const Seam& seam, std::optional<double> angle,
+                                 double growth)
 {
     std::vector<SeamStage> stages;
     const std::vector<Piece> pieces = pieces_of(scene, seam);
+    std::size_t count = 0;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         SeamState state = pieces[i].state;
         if (pieces[i].slope != 0.0 && i + 1 < pieces.size()) // the mean
             state.friction = pieces[i].friction + 0.5 * pieces[i].slope * (pieces[i + 1].from - pieces[i].from);
-        const Chain chain = model_of(scene, on_rock, seam, angle, state).chain;
-        const Chain body = angle ? model_of(scene, on_rock, seam, std::nullopt, state).chain : chain;
-        if (body.blocks.size() != 1 || chain.blocks.size() > 2 || chain_law(chain).locked || chain_law(body).locked) return {};
-        stages.push_back({pieces[i].from, chain, body});
+        SeamStage stage{pieces[i].from, model_of(scene, on_rock, seam, angle, state).chain, {}, growth};
+        stage.body = angle ? model_of(scene, on_rock, seam, std::nullopt, state).chain : stage.chain;
+        if (count == 0) count = blocks_back(stage.body);
+        if (count < stage.body.blocks.size()) { // the water of the face stays
+            const ChainInterface& face = stage.body.interfaces[count - 1];
+            stage.body.blocks.resize(count);
+            stage.body.interfaces.resize(count - 1);
+            stage.body.blocks.back().force.x -= face.water * std::sin(face.angle);
+            stage.body.blocks.back().force.y += face.water * std::cos(face.angle);
+        }
+        if (chain_law(stage.chain).locked || chain_law(stage.body).locked) return {};
+        stages.push_back(std::move(stage));
     }
     return stages;
 }
@@ -745,11 +771,6 @@ std::vector<SeamStage> bodies_of(const Scene& scene, const Rock& on_rock, const 
 SlipStages seam_stages(const Scene& scene, const Seam& seam, std::optional<double> angle, double growth)
 {
     return stages_of(scene, Rock(scene, seam), seam, angle, growth);
-}
-
-std::vector<SeamStage> seam_bodies(const Scene& scene, const Seam& seam, std::optional<double> angle)
-{
-    return bodies_of(scene, Rock(scene, seam), seam, angle);
 }
 
 } // namespace damslip::sliding

@@ -88,7 +88,7 @@ struct SeamPlane {
     ChainStatus status = ChainStatus::stands; ///< at the yield
     SeamModel model;                          ///< at `angle`
     double yield = 0.0, yield_per_a_v = 0.0;  ///< a_y [m/s^2], da_y/da_v [-]
-    /// Of the body alone, which leaves the wedge; infinite: it has more than one segment.
+    /// Of the body alone, which leaves the wedge; infinite: it is locked.
     Yield upstream{{std::numeric_limits<double>::infinity(), 0.0}, 0.0};
     double wedge_back = std::numeric_limits<double>::infinity(); ///< upstream yield of the wedge before a gap [m/s^2]
     double slip_factor = 1.0;    ///< H/M* [-]
@@ -100,7 +100,9 @@ struct SeamPlane {
     std::vector<double> resultants; ///< distance of N from the upstream end of each segment over its length [-]; beyond 0 ... 1: tips
     std::vector<double> shares;     ///< of the resistance: segments, then interfaces [-]
     SlipStages stages;              ///< for slide(), downstream only
-    std::vector<SeamStage> bodies;  ///< for slide_seam(), both ways; empty: downstream only
+    /// For slide_seam(), both ways: friction that slopes by its mean over sixteenths. Of a body that would have to pull blocks upstream
+    /// these are the wedge. Empty: locked.
+    std::vector<SeamStage> bodies;
 };
 
 /// What of a seam does not depend on its strengths: its geometry, loads and water, for each angle of the wedge that is tried.
@@ -136,9 +138,5 @@ SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<Gro
 /// Stages of a seam over its slip: cohesion lost, friction over the slip, drains sheared off, dilation at its end; with
 /// planes.geometry = "linear" the yield grows by `growth` with the slip.
 SlipStages seam_stages(const Scene& scene, const Seam& seam, std::optional<double> angle, double growth);
-
-/// The same for slide_seam(): friction that slopes by its mean over sixteenths, no growth of the yield. Empty where the body is
-/// more than one block, or more than a wedge lies before it.
-std::vector<SeamStage> seam_bodies(const Scene& scene, const Seam& seam, std::optional<double> angle);
 
 } // namespace damslip::sliding

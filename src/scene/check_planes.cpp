@@ -356,6 +356,9 @@ void check_ground_line(const Scene& s, Findings& f)
     if (!g.empty() && s.seams.empty())
         f.wrong("foundation.ground", "foundation.ground_m is given, but the scene has no [[seam]].",
                 "the ground is asked for by the planes of [[seam]] only", "add a [[seam]], or delete ground_m");
+    if (s.foundation->k0 && s.seams.empty())
+        f.wrong("foundation.k0", fmt::format("foundation.k0 = {} is given, but the scene has no [[seam]].", shortest(*s.foundation->k0)),
+                "the stress of the rock before the dam decides on a [[seam]] by  fe --plane  only", "add a [[seam]], or delete k0");
 }
 
 } // namespace

@@ -184,7 +184,7 @@ constexpr std::array rows{
     Row{"uplift.water_viscosity", fe}, Row{"uplift.cavitation_pressure", fe}, Row{"uplift.wet_end", fe},
     Row{"curtain", statics}, Row{"curtain.young_modulus", model}, Row{"curtain.poisson_ratio", model},
     Row{"drains", statics}, Row{"drains.lost_at_slip", blocks | fe},
-    Row{"foundation", model}, Row{"foundation.density", rigid | finite_elements}, Row{"foundation.ground", rigid | fe}, Row{"foundation.mass", finite_elements},
+    Row{"foundation", model}, Row{"foundation.density", rigid | finite_elements}, Row{"foundation.ground", rigid | fe}, Row{"foundation.k0", fe}, Row{"foundation.mass", finite_elements},
     Row{"foundation.boundary", fe}, Row{"foundation.wave_box", finite_elements},
     Row{"foundation.wave_frequency", finite_elements}, Row{"foundation.permeability", statics},
     Row{"reservoir", finite_elements | modes}, Row{"reservoir.level", all}, Row{"reservoir.density", all}, Row{"reservoir.model", all},

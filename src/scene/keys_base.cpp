@@ -230,6 +230,9 @@ std::vector<KeyGroup> base_groups()
                 at(&Foundation::depth)),
          number("permeability", conductivity, Range::above(0), "1e-4", "hydraulic conductivity", "1e-4",
                 at(&Foundation::permeability)),
+         number("k0", none, Range::between(0, 10), "poisson_ratio/(1 - poisson_ratio)",
+                "fe --plane: horizontal over vertical stress of the rock under its weight, before dam and water", "1.5",
+                at(&Foundation::k0)),
          pairs("ground", length, length, Range::any(), "level at heel and toe",
                "surface of the rock up- and downstream of the dam, for the planes of [[seam]]: x downstream of the heel, y "
                "above it, from upstream to downstream; between heel and toe the base takes its place",

@@ -488,6 +488,7 @@ constexpr std::array rows{
     Row{"foundation.depth", 2, 2000, judgement},
     Row{"foundation.wave_box", 1, 3, judgement},
     Row{"foundation.wave_frequency", 5, 100, judgement},
+    Row{"foundation.k0", 0.2, 3.5, "Brown & Hoek 1978"},
     Row{"foundation.permeability", 1e-12, 1e-2, "Freeze & Cherry 1979"},
 
     Row{"reservoir.level", 0.5, 300, "ICOLD register", true},
@@ -593,6 +594,7 @@ constexpr std::array sources{
     UsualSource{"Bandis et al. 1983", "S.C. Bandis, A.C. Lumsden, N.R. Barton: Fundamentals of rock joint deformation, Int. J. Rock Mech. Min. Sci. 20"},
     UsualSource{"Barton & Choubey 1977", "N. Barton, V. Choubey: The shear strength of rock joints in theory and practice, Rock Mechanics 10"},
     UsualSource{"Bazant & Oh 1983", "Z.P. Bazant, B.H. Oh: Crack band theory for fracture of concrete, Materials and Structures 16; dam concrete added by judgement"},
+    UsualSource{"Brown & Hoek 1978", "E.T. Brown, E. Hoek: Trends in relationships between measured in-situ stresses and depth, Int. J. Rock Mech. Min. Sci. 15; young ground below 0.5 added by judgement"},
     UsualSource{"CRC Handbook", "CRC Handbook of Chemistry and Physics: fresh and sea water; water with silt added by judgement"},
     UsualSource{"EM 1110-2-2100", "USACE (2005): Stability analysis of concrete structures"},
     UsualSource{"EM 1110-2-2200", "USACE (1995): Gravity dam design"},

@@ -54,6 +54,7 @@ struct Foundation {
     double width = 0.0;                              ///< of the box, centred on the base [m]
     double depth = 0.0;                              ///< below the heel [m]
     double permeability = 1e-4;                      ///< hydraulic conductivity [m/s]
+    std::optional<double> k0 = {}; ///< below a seam: horizontal over vertical stress of its weight [-]; none: ν/(1 - ν), as elastic rock has it
     Polyline ground = {}; ///< surface of the rock, from upstream to downstream [m]; empty: level at heel and toe; sliding planes only
 
     // Of the box in which waves travel, with absorbing edges.

@@ -99,6 +99,7 @@ seam[].depth_m : 4 | 6 : foundation.young_modulus_GPa=10; foundation.density_kg_
 seam[].friction : 0.6 | 0.5 : foundation.young_modulus_GPa=10; foundation.density_kg_m3=2600; seam[].depth_m=4; seam[].exit="free-face"
 seam.wedge.friction : 0.8 | 0.6 : foundation.young_modulus_GPa=10; foundation.density_kg_m3=2600; seam[].depth_m=4; seam[].friction=0.6; seam.wedge.angle_deg=20; seam[].uplift="none"
 seam.wedge.angle_deg : 20 | 30 : foundation.young_modulus_GPa=10; foundation.density_kg_m3=2600; seam[].depth_m=4; seam[].friction=0.6; seam.wedge.friction=0.7
+foundation.k0 : 0.3 | 1.5 : foundation.young_modulus_GPa=10; foundation.density_kg_m3=2600; seam[].depth_m=4; seam[].friction=0.6; seam.wedge.friction=0.7; seam.wedge.angle_deg=20; seam[].uplift="none"
 foundation.ground_m : [[-10,0],[24,0],[60,0]] | [[-10,0],[24,0],[40,3]] : foundation.young_modulus_GPa=10; foundation.density_kg_m3=2600; seam[].depth_m=4; seam[].friction=0.6; seam.wedge.friction=0.7; seam.wedge.angle_deg=20; seam[].uplift="none"
 foundation.mass : "with-mass" | "massless" : foundation.young_modulus_GPa=10
 foundation.boundary : "absorbing" | "fixed" : foundation.young_modulus_GPa=10; foundation.density_kg_m3=2600
@@ -306,7 +307,7 @@ Methods out_of_sight(const std::string& key)
     if (key == "ice.level_m" || key == "force[].x_m" || key == "force[].y_m")
         return methods::rigid; // matter to a block that tips
     if (key == "sliding.run_out_max_s") return methods::rigid; // it rests before the record ends; sabotage.run_out_off has it
-    if (key.starts_with("seam") || key == "foundation.ground_m")
+    if (key.starts_with("seam") || key == "foundation.ground_m" || key == "foundation.k0")
         return methods::fe; // a plain `fe` slides on the base; fe_seam_test has `fe --plane`
     if (key == "regressions.period_s") return methods::flexible;            // the scene states flexible_block.period_s
     return 0;

@@ -189,7 +189,7 @@ TEST(PlaneInput, SeamTablesAgree)
 TEST(PlaneInput, TablesInsideSeamsAreWrittenAndSet)
 {
     const std::string text = plane_dam + plane_rock +
-                             "ground_m = [[-10, 0], [0, 0], [45, 0], [80, 3]]\n"
+                             "ground_m = [[-10, 0], [0, 0], [45, 0], [80, 3]]\nk0 = 0.8\n"
                              "[lifts]\nfriction = 0.8\nelevations_ft = [10, 20]\n"
                              "[[seam]]\nname = \"clay\"\nfriction = 0.5\ndepth_m = 8\n"
                              "[seam.wedge]\nfriction_deg = 40\nangles_deg = [20, 25]\n"
@@ -209,6 +209,7 @@ TEST(PlaneInput, TablesInsideSeamsAreWrittenAndSet)
     EXPECT_EQ(again.seams[1].wedge->search_from, scene.seams[1].wedge->search_from);
     EXPECT_EQ(again.seams[0].wedge->angles, scene.seams[0].wedge->angles);
     EXPECT_EQ(again.seams[1].interface, scene.seams[1].interface);
+    EXPECT_EQ(again.foundation->k0, scene.foundation->k0);
 
     const SceneText keys(text, "dam.toml");
     EXPECT_EQ(keys.canonical("seam[1].wedge.friction_deg"), "seam[clay].wedge.friction");
@@ -219,6 +220,20 @@ TEST(PlaneInput, TablesInsideSeamsAreWrittenAndSet)
     EXPECT_EQ(changed.seams[0].wedge->friction, 0.7);
     EXPECT_EQ(changed.seams[1].strength.friction, 0.4);
     EXPECT_EQ(changed.lifts->strength.friction, 0.9);
+}
+
+TEST(PlaneInput, TheStressOfTheRockIsForASeam)
+{
+    EXPECT_EQ(plane_message(plane_rock + "k0 = 1.5\n"),
+              "dam.toml:11:1: error: foundation.k0 = 1.5 is given, but the scene has no [[seam]].\n"
+              "  expected: the stress of the rock before the dam decides on a [[seam]] by  fe --plane  only\n"
+              "  fix:      add a [[seam]], or delete k0");
+    const auto with = [](const std::string& k0) {
+        return plane_message(plane_rock + "k0 = " + k0 + "\n[[seam]]\nfriction = 0.5\ndepth_m = 8\nexit = \"free-face\"\n");
+    };
+    EXPECT_EQ(with("1.5"), "(accepted)");
+    EXPECT_TRUE(says(with("-0.2"), "dam.toml:11:6: error: foundation.k0 = -0.2 is not allowed.")) << with("-0.2");
+    EXPECT_TRUE(says(with("-0.2"), "0 ... 10")) << with("-0.2");
 }
 
 TEST(PlaneInput, LiftsStandAtTheirSpacing)

@@ -267,6 +267,48 @@ TEST(FeSeam, ElasticBodiesOnRadiatingRockCloseTheirEnergy)
     for (const StageResult& stage : run.stages) EXPECT_EQ(stage.status, StageStatus::ok) << text_of(stage.notes());
 }
 
+/// Rock under its own weight between fixed sides, far from the crack: σ_xx = k0 σ_yy.
+TEST(FeSeam, RockStartsWithTheHorizontalStressOfItsK0)
+{
+    const auto thrust = [](const Scene& scene) { // between the rock below the dam and the wedge, under gravity
+        return run_of(scene, still()).stages.front().lifts[1].resultant.normal_force;
+    };
+    Scene scene = elastic_seam(1.0);
+    scene.foundation->width = 1600.0;
+    const double elastic = 0.2 / 0.8, by_weight = thrust(scene), unit = 2650.0 * 9.81;
+    scene.foundation->k0 = elastic;
+    EXPECT_NEAR(thrust(scene), by_weight, 1e-9 * by_weight);
+    double before = by_weight;
+    for (const double k0 : {0.6, 1.5}) {
+        scene.foundation->k0 = k0;
+        const Ready ready = ready_of(scene);
+        const Watch nobody;
+        const EarthquakeRun run(ready.scene, ready.run_options(nobody));
+        const RunResult result = run.run(still());
+        ASSERT_GT(result.zero_displacement.size(), 0);
+        const Mesh& mesh = run.model().mesh;
+        const StressField stress = stress_field(run.model(), result.zero_displacement);
+        int far = 0;
+        for (int e = 0; e < mesh.element_count(); ++e) {
+            Point centre;
+            const Element& element = mesh.elements[static_cast<std::size_t>(e)];
+            for (const int node : element.all()) {
+                centre.x += mesh.nodes[static_cast<std::size_t>(node)].x / element.size();
+                centre.y += mesh.nodes[static_cast<std::size_t>(node)].y / element.size();
+            }
+            if (element.region == Region::dam || std::abs(centre.x) < 500.0) continue;
+            ++far;
+            EXPECT_NEAR(stress.centre(1, e), unit * centre.y, 0.002 * unit * 120.0);
+            EXPECT_NEAR(stress.centre(0, e), k0 * unit * centre.y, 0.002 * k0 * unit * 120.0);
+        }
+        EXPECT_GT(far, 100);
+        // Across 8 m of an upright face, as far as the wedge can carry it on its plane.
+        const double now = thrust(scene);
+        EXPECT_GT(now, before + 0.5 * (k0 == 0.6 ? 0.35 : 0.9) * 0.5 * unit * 64.0);
+        before = now;
+    }
+}
+
 TEST(FeSeam, TiedModelOfItIsThatOfTheUncutRock)
 {
     // The lines share their unknowns: as stiff as one body but for the open crack.

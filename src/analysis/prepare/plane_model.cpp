@@ -43,11 +43,10 @@ RigidModel plane_model(sliding::SlipStages stages, double length, double amplifi
     return model;
 }
 
-void add_bodies(const Scene& scene, const sliding::SeamPlane& plane, RigidModel& model)
+void add_bodies(const sliding::SeamPlane& plane, RigidModel& model)
 {
     model.upstream = plane.upstream;
-    if (scene.planes.geometry == PlaneGeometry::small && !plane.bodies.empty())
-        model.bodies = std::make_shared<const std::vector<sliding::SeamStage>>(plane.bodies);
+    if (!plane.bodies.empty()) model.bodies = std::make_shared<const std::vector<sliding::SeamStage>>(plane.bodies);
 }
 
 namespace {
@@ -58,7 +57,7 @@ RigidModel model_of(const Scene& scene, const Seam& seam, KeptStatics& kept)
     RigidModel model =
         plane_model(std::move(plane.stages), plane.model.chain.blocks[plane.model.chain.dam].length, 1.0, true);
     model.critical_friction = plane.holding_friction;
-    add_bodies(scene, plane, model);
+    add_bodies(plane, model);
     return model;
 }
 

@@ -21,7 +21,7 @@ std::vector<std::string> plane_names(const Scene& scene);
 RigidModel plane_model(sliding::SlipStages stages, double length, double amplification, bool one_way);
 
 /// What a seam needs to slide both ways.
-void add_bodies(const Scene& scene, const sliding::SeamPlane& plane, RigidModel& model);
+void add_bodies(const sliding::SeamPlane& plane, RigidModel& model);
 
 /// Of all planes but the base, in the order of plane_names(). @param kept  as of make_rigid_model()
 std::vector<RigidModel> plane_models(const Scene& scene, KeptStatics* kept = nullptr);

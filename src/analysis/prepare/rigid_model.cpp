@@ -107,18 +107,27 @@ GroundMotion amplified(GroundMotion motion, double by)
 bool moves_back(const Scene& scene, const RigidModel& model, const sliding::AccelRange& range, int polarity)
 {
     if (!model.bodies || !scene.sliding.two_way) return false;
-    const double back = polarity > 0 ? -range.h_min : range.h_max;
+    const double back = -sliding::turned(range, polarity).h_min;
     return back > std::min(model.upstream.law.at(range.v_min), model.upstream.law.at(range.v_max));
 }
 
-/// The slide of such a seam; none: it stays on its wedge, or does not stand.
+/// May its wedge run ahead of it?
+bool wedge_may_part(const RigidModel& model, const sliding::SkippingMotion& motion, int polarity)
+{
+    return model.bodies && sliding::may_run_ahead(motion, *model.bodies, polarity);
+}
+
+/// The slide of a seam that leaves its wedge, or whose wedge leaves it; none: they stay together, or it does not stand.
 std::optional<sliding::SlideResult> both_ways(const Scene& scene, const RigidModel& model,
                                               const sliding::SkippingMotion& motion, int polarity)
 {
-    if (motion.motion().is_sequence() || model.state != sliding::StaticState::at_rest ||
-        !moves_back(scene, model, motion.whole(), polarity))
-        return std::nullopt;
-    return sliding::slide_seam(motion, *model.bodies, {scene.sliding, polarity}, sliding::SeamWorks::left_out).slide;
+    if (motion.motion().is_sequence() || model.state != sliding::StaticState::at_rest) return std::nullopt;
+    const bool back = moves_back(scene, model, motion.whole(), polarity);
+    if (!back && !wedge_may_part(model, motion, polarity)) return std::nullopt;
+    sliding::SeamSlide found =
+        sliding::slide_seam(motion, *model.bodies, {scene.sliding, polarity}, sliding::SeamWorks::left_out);
+    if (!back && found.partings == 0) return std::nullopt; // slide() is that to round-off, and sooner
+    return std::move(found.slide);
 }
 
 } // namespace
@@ -195,7 +204,8 @@ std::vector<sliding::SlideResult> slide_models(const Scene& scene, std::span<con
     std::vector<const sliding::SlipStages*> stages;
     std::vector<std::size_t> places;
     for (std::size_t i = 0; i < models.size(); ++i)
-        if (together && !moves_back(scene, *models[i], motion.whole(), polarity)) {
+        if (together && !moves_back(scene, *models[i], motion.whole(), polarity) &&
+            !wedge_may_part(*models[i], motion, polarity)) {
             stages.push_back(&models[i]->stages);
             places.push_back(i);
         } else {

@@ -91,13 +91,13 @@ Sliding of_lift(sliding::LiftPlane& lift, std::size_t place)
     return s;
 }
 
-Sliding of_seam(const Scene& scene, sliding::SeamPlane& seam, std::size_t place)
+Sliding of_seam(sliding::SeamPlane& seam, std::size_t place)
 {
     const sliding::Chain& chain = seam.model.chain;
     Sliding s{plane_row(PlaneKind::seam, seam.name, place),
               plane_model(std::move(seam.stages), chain.blocks[chain.dam].length, 1.0, true)};
     for (const sliding::SeamFactor& factor : seam.factors) s.row.factors.push_back(finite(factor.factor));
-    add_bodies(scene, seam, s.model);
+    add_bodies(seam, s.model);
     s.row.angle = seam.angle;
     s.row.angle_factor = seam.factors.back().angle;
     s.row.yield = seam.yield;
@@ -160,20 +160,21 @@ void add_work(const Scene& scene, Sliding& s, const std::vector<sliding::Skippin
         planes.warnings.push_back(fmt::format("seam \"{}\": {}", s.row.name, what));
     };
     std::optional<SeamWork> worst;
-    bool pulls = false, back = false;
+    bool pulls = false, back = false, ahead = false;
     for (const sliding::SkippingMotion& motion : motions)
         for (const int polarity : {1, -1}) {
             if (motion.motion().is_sequence()) return;
             SeamWork work{s.row.name, motion.motion().name, polarity,
                           slide_bodies(scene, s.model, motion.motion(), polarity)};
             pulls = pulls || work.slide.least_pressure < 0.0;
+            ahead = ahead || work.slide.partings > 0;
             back = back || (work.slide.slide.max_gap > 0.0 &&
                             plane.wedge_back < std::max(motion.whole().h_max, -motion.whole().h_min));
             if (!worst || work.slide.slide.max_slip > worst->slide.slide.max_slip) worst = std::move(work);
         }
     if (pulls)
-        warn("as it slows down the dam would pull on its wedge or a block on its plane: the wedge would run ahead there, which "
-             "is not followed.");
+        warn("as it slows down its blocks would pull on each other or on their planes, which is not followed.");
+    if (ahead) warn("its wedge runs ahead of the dam: it starts sooner or slows down later.");
     if (back) warn("its wedge would slide back into the gap that the dam leaves; that is not followed.");
     if (worst && worst->slide.slide.max_slip > 0.0) planes.works.push_back(std::move(*worst));
 }
@@ -287,7 +288,7 @@ Planes find_planes(const Ready& ready, const std::vector<sliding::Equilibrium>& 
         all.push_back(of_lift(planes.lifts[i], i));
         if (modes) all.back().model.tied = std::make_shared<const sliding::TiedPart>(modes->parts[i]);
     }
-    for (std::size_t i = 0; i < planes.seams.size(); ++i) all.push_back(of_seam(scene, planes.seams[i], i));
+    for (std::size_t i = 0; i < planes.seams.size(); ++i) all.push_back(of_seam(planes.seams[i], i));
 
     parallel_for(all.size(), jobs, [&](std::size_t i) {
         for (const sliding::SkippingMotion& motion : motions) {

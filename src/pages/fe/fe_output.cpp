@@ -98,7 +98,7 @@ void FieldSeries::add(const std::string& name, double time, const Eigen::VectorX
                       const Eigen::VectorXd& elastic, std::vector<fe2d::VtuArray> more)
 {
     if (folder_.empty()) return;
-    const fe2d::StressField stress = fe2d::stress_field(model_.mesh, model_.dofs, model_.materials, elastic);
+    const fe2d::StressField stress = fe2d::stress_field(model_, elastic);
     const std::string file = fmt::format("fields_{:04d}_{}.vtu", entries_.size(), file_word(name));
     std::vector<fe2d::VtuArray> nodal{{"displacement_m", node_vectors(model_.dofs, displacement)},
                                       {"stress_xx_yy_xy_Pa", stress.nodal},
@@ -151,8 +151,7 @@ public:
             of_.model.displacement_of({fe2d::Instant::end, 0.0, 0.0, frame.dam, frame.rock});
         const Eigen::VectorXd shown = zero_.size() > 0 ? Eigen::VectorXd(elastic - zero_) : elastic;
         const Eigen::MatrixXd displacement = node_vectors(of_.model.model().dofs, shown);
-        const fe2d::StressField stress =
-            fe2d::stress_field(mesh(), of_.model.model().dofs, of_.model.model().materials, elastic);
+        const fe2d::StressField stress = fe2d::stress_field(of_.model.model(), elastic);
         write_solid(block("dam"), dam_, displacement, stress);
         if (!rock_.elements.empty()) write_solid(block("rock"), rock_, displacement, stress);
         if (const fe2d::WaterBody* water = of_.model.water(); water && frame.water.size() > 0)

@@ -142,7 +142,7 @@ void StressView::add_state(const std::string& name, const fe2d::StoredState& sta
 {
     const fe2d::Model& model = run_.model();
     const Eigen::VectorXd u = run_.displacement_of(state);
-    const fe2d::StressField stress = fe2d::stress_field(model.mesh, model.dofs, model.materials, u);
+    const fe2d::StressField stress = fe2d::stress_field(model, u);
     const Eigen::Vector2d shift = state.slip * run_.structure().plane().tangent;
     const Eigen::MatrixXd at_nodes = node_vectors(model.dofs, zero.size() ? Eigen::VectorXd(u - zero) : u);
 

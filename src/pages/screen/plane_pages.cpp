@@ -416,12 +416,16 @@ Table work_table(const Planes& planes)
     const auto of = [](double sliding::SeamLedger::*part) {
         return [part](const W& w) { return w.slide.ledger.*part / kN; };
     };
-    const auto of_plane = [](std::size_t i) {
-        return [i](const W& w) {
-            const std::vector<double>& list = w.slide.ledger.planes;
-            return i < list.size() ? Cell(list[i] / kN) : Cell();
-        };
+    const auto sum_of = [](const std::vector<double>& works, std::size_t from, std::size_t to) {
+        double sum = 0.0;
+        for (std::size_t i = from; i < to; ++i) sum += works[i];
+        return from < to ? Cell(sum / kN) : Cell();
     };
+    const auto of_seam = [&](const W& w) { return sum_of(w.slide.ledger.planes, 0, w.slide.body_blocks); };
+    const auto of_wedge = [&](const W& w) {
+        return sum_of(w.slide.ledger.planes, w.slide.body_blocks, w.slide.ledger.planes.size());
+    };
+    const auto of_faces = [&](const W& w) { return sum_of(w.slide.ledger.interfaces, 0, w.slide.ledger.interfaces.size()); };
     return table_of<W>(
         "Works",
         {{{"plane", "plane"}, &W::plane},
@@ -431,10 +435,9 @@ Table work_table(const Planes& planes)
          {{"loads_kJ_m", "loads", "kJ/m", 5}, of(&sliding::SeamLedger::loads)},
          {{"water_kJ_m", "water below", "kJ/m", 5}, of(&sliding::SeamLedger::water)},
          {{"weight_kJ_m", "weight", "kJ/m", 5}, of(&sliding::SeamLedger::weight)},
-         {{"seam_kJ_m", "seam", "kJ/m", 5}, of_plane(0)},
-         {{"wedge_kJ_m", "wedge", "kJ/m", 5}, of_plane(1)},
-         {{"interface_kJ_m", "interface", "kJ/m", 5},
-          [](const W& w) { return w.slide.ledger.interfaces.empty() ? Cell() : Cell(w.slide.ledger.interfaces[0] / kN); }},
+         {{"seam_kJ_m", "seam", "kJ/m", 5}, of_seam},
+         {{"wedge_kJ_m", "wedge", "kJ/m", 5}, of_wedge},
+         {{"interface_kJ_m", "interface", "kJ/m", 5}, of_faces},
          {{"impact_kJ_m", "impacts", "kJ/m", 5}, [](const W& w) { return -w.slide.ledger.impact / kN; }},
          {{"impacts", "number"}, [](const W& w) { return Cell(std::int64_t{w.slide.impacts}); }},
          {{"gap_mm", "widest gap", "mm", 4}, [](const W& w) { return w.slide.slide.max_gap / mm; }},
