@@ -750,7 +750,8 @@ std::vector<SeamStage> bodies_of(const Scene& scene, const Rock& on_rock, const 
         SeamState state = pieces[i].state;
         if (pieces[i].slope != 0.0 && i + 1 < pieces.size()) // the mean
             state.friction = pieces[i].friction + 0.5 * pieces[i].slope * (pieces[i + 1].from - pieces[i].from);
-        SeamStage stage{pieces[i].from, model_of(scene, on_rock, seam, angle, state).chain, {}, growth};
+        SeamStage stage{pieces[i].from, model_of(scene, on_rock, seam, angle, state).chain, {}, growth,
+                        scene.planes.wedge == PlaneWedge::free};
         stage.body = angle ? model_of(scene, on_rock, seam, std::nullopt, state).chain : stage.chain;
         if (count == 0) count = blocks_back(stage.body);
         if (count < stage.body.blocks.size()) { // the water of the face stays

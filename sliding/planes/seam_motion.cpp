@@ -120,10 +120,11 @@ struct MovingStage {
     Form of_wedge, gain;                      ///< its acceleration; what it has more than the body behind it
     bool cohesive = false;                    ///< the face between them
     double growth = 0.0;                      ///< κ H/M*
+    bool parts;                               ///< SeamStage::parts
 
     MovingStage(const SeamStage& s)
         : from_slip(s.from_slip), together(s.chain), down(s.body), up(going_upstream(s.body), 1e9),
-          growth(s.growth * together.law.factor())
+          growth(s.growth * together.law.factor()), parts(s.parts)
     {
         if (!has_wedge(s)) return;
         const auto [body, alone] = parted(s);
@@ -137,7 +138,7 @@ struct MovingStage {
 
     bool may_run_ahead(const SkippingMotion& motion, int polarity) const
     {
-        return wedge && (of_wedge.rises_above_zero(motion, polarity) || gain.rises_above_zero(motion, polarity));
+        return parts && wedge && (of_wedge.rises_above_zero(motion, polarity) || gain.rises_above_zero(motion, polarity));
     }
 };
 
@@ -538,7 +539,7 @@ double SeamLedger::work() const
 bool may_run_ahead(const SkippingMotion& motion, const std::vector<SeamStage>& stages, int polarity)
 {
     return std::any_of(stages.begin(), stages.end(), [&](const SeamStage& s) {
-        return has_wedge(s) && MovingStage(s).may_run_ahead(motion, polarity);
+        return s.parts && has_wedge(s) && MovingStage(s).may_run_ahead(motion, polarity);
     });
 }
 

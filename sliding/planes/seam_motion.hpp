@@ -17,6 +17,7 @@ struct SeamStage {
     Chain chain;            ///< body and wedge; of as many blocks as the body: there is no wedge
     Chain body;             ///< the body alone, once it has moved upstream and the gap is full: the first blocks of the chain
     double growth = 0.0;    ///< κ: of the chain's yield at rest over the slip that body and wedge make together [1/s^2]
+    bool parts = true;      ///< the wedge may run ahead of the body
 };
 
 /// Work on the bodies relative to the ground [J/m]; all of it is their kinetic energy and what impacts took.

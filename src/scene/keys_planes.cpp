@@ -223,6 +223,13 @@ std::vector<KeyGroup> plane_groups(const std::vector<Key>& contact)
                                       choice(&P::geometry, std::vector<std::pair<std::string, PlaneGeometry>>{
                                                                {"small", PlaneGeometry::small},
                                                                {"linear", PlaneGeometry::linear}}))),
+                   only_where<P>([](const P& p) { return p.wedge != PlaneWedge::held; },
+                                 word("wedge", "held",
+                                      "held: downstream dam and wedge move as one; free: a wedge that slows down later than the dam, or "
+                                      "starts sooner, runs ahead of it and is met again",
+                                      "\"free\"",
+                                      choice(&P::wedge, std::vector<std::pair<std::string, PlaneWedge>>{
+                                                            {"held", PlaneWedge::held}, {"free", PlaneWedge::free}}))),
                    only_where<P>([](const P& p) { return p.governs != PlaneJudgement::slip; },
                                  word("governs", "slip",
                                       "which plane gives the verdict: the largest slip, or the least factor of safety "

@@ -300,11 +300,13 @@ struct SeamBody {
 };
 
 enum class PlaneGeometry { small, linear }; ///< linear: the yield grows with the slip as the wedge is pushed up
+enum class PlaneWedge { held, free };        ///< free: a wedge that slows down later than the dam runs ahead of it
 enum class PlaneJudgement { factor, slip };  ///< which plane governs: least F over required, or largest slip
 
 /// Of all planes.
 struct PlaneOptions {
     PlaneGeometry geometry = PlaneGeometry::small;
+    PlaneWedge wedge = PlaneWedge::held;
     PlaneJudgement governs = PlaneJudgement::slip;
     /// Name of the seam or lift that the scene slides on; empty: the base. No key: `--plane` of `sweep` and `fe` sets it.
     std::string slides_on;

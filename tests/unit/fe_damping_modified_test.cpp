@@ -96,8 +96,8 @@ TEST(FeModifiedRayleigh, without_a_solution_it_is_ordinary_rayleigh_and_says_so)
     EXPECT_TRUE(result.sign_changes.empty());
     EXPECT_EQ(result.second_frequency, modes[2].frequency); // mode 5 of ordinary Rayleigh, the last there is
     ASSERT_EQ(result.warnings.size(), 2u);                  // 5 % of the mass only; no solution
-    EXPECT_NE(result.warnings[0].find("5.0 % of the horizontal mass"), std::string::npos);
-    EXPECT_NE(result.warnings[1].find("|dS|"), std::string::npos);
+    EXPECT_NE(text_of(result.warnings[0]).find("5.0 % of the horizontal mass"), std::string::npos);
+    EXPECT_NE(text_of(result.warnings[1]).find("|dS|"), std::string::npos);
     const auto expected = fe2d::rayleigh_constants(0.05, modes[0].frequency, modes[2].frequency);
     EXPECT_DOUBLE_EQ(result.constants.mass, expected.mass);
     EXPECT_DOUBLE_EQ(result.constants.stiffness, expected.stiffness);

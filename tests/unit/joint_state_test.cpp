@@ -252,7 +252,7 @@ TEST(StaticJump, ADamWhoseBondBreaksComesToRestOnItsBars)
     EXPECT_GT(jumped->bond->events, 0);
     EXPECT_LE(jumped->bond->largest, jumped->bond->limit);
     EXPECT_EQ(jumped->bond->carried, 1.0);
-    EXPECT_NE(jumped->text().find("It jumped there"), std::string::npos) << jumped->text();
+    EXPECT_NE(text_of(jumped->notes()).find("It jumped there"), std::string::npos) << text_of(jumped->notes());
 
     const Anchor& bar = scene.anchors.front();
     const double length = std::hypot(bar.free_length, jumped->slip);

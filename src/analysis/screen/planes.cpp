@@ -172,7 +172,10 @@ void add_work(const Scene& scene, Sliding& s, const std::vector<sliding::Skippin
                             plane.wedge_back < std::max(motion.whole().h_max, -motion.whole().h_min));
             if (!worst || work.slide.slide.max_slip > worst->slide.slide.max_slip) worst = std::move(work);
         }
-    if (pulls)
+    if (pulls && scene.planes.wedge == PlaneWedge::held)
+        warn("as it slows down the dam would pull on its wedge or a block on its plane: planes.wedge = \"free\" lets the wedge run "
+             "ahead.");
+    else if (pulls)
         warn("as it slows down its blocks would pull on each other or on their planes, which is not followed.");
     if (ahead) warn("its wedge runs ahead of the dam: it starts sooner or slows down later.");
     if (back) warn("its wedge would slide back into the gap that the dam leaves; that is not followed.");
