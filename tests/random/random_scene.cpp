@@ -508,7 +508,7 @@ private:
         add_bond_in_motion("[lift_joint]");
     }
 
-    void add_bond_in_motion(const std::string& table)
+    void add_bond_in_motion(const char* table)
     {
         if (draw_.chance(0.4)) key(table, "softening", "\"exponential\"");
         if (draw_.chance(0.3)) key(table, "dynamic_increase", draw_.log_between(1, 3));

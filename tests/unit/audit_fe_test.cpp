@@ -330,7 +330,7 @@ ContactRun made_up_run(Status status, double slip, double step_error)
     run.fe.status = status;
     run.fe.slip = run.fe.max_slip = slip;
     run.fe.slip_error = step_error;
-    run.fe.notes = {{NoteKind::in_record, {"what happened"}}};
+    run.fe.notes = {{NoteKind::rest_falls}};
     run.fe.after.name = "after the earthquake";
     return run;
 }
@@ -359,7 +359,7 @@ TEST(Audit, B1_fe_what_is_not_resolved_has_no_slip_no_verdict_and_a_neutral_bann
     // A dam that fails in another run fails, and what is not resolved is named.
     const std::vector<ContactRun> two{made_up_run(Status::at_rest, 0.2, 0.001), runs.front()};
     EXPECT_EQ(fe_headline(scene, two).verdict, "FAIL");
-    EXPECT_NE(fe_headline(scene, two).sentence.find("what happened"), std::string::npos);
+    EXPECT_NE(fe_headline(scene, two).sentence.find("It does not stand there"), std::string::npos);
     EXPECT_EQ(exit_code_of(two), exit_no_answer);
     // A slip that would pass does not where another run has no answer.
     const std::vector<ContactRun> small{made_up_run(Status::at_rest, 0.01, 0.001), runs.front()};
@@ -373,18 +373,18 @@ TEST(SelfExcited, both_polarities_walk_and_the_remedy_is_said_once)
     std::vector<ContactRun> runs{made_up_run(Status::self_excited, 1.5, 0.0),
                                  made_up_run(Status::self_excited, -2.25, 0.0)};
     EXPECT_EQ(fe_headline(scene, runs).sentence,
-              "made up: what happened. made up: Self-excited, too: slid at least 2250 mm.");
+              "made up: It does not stand there: the sequence ends. made up: Self-excited, too: slid at least 2250 mm.");
     std::vector<std::string> messages;
     pages::add_run_messages(runs, messages);
-    EXPECT_EQ(messages, (std::vector<std::string>{"made up: what happened.",
+    EXPECT_EQ(messages, (std::vector<std::string>{"made up: It does not stand there: the sequence ends.",
                                                   "made up: Self-excited, too: slid at least 2250 mm."}));
     // With a slip beside them the first of those that walk says it.
     runs.insert(runs.begin(), made_up_run(Status::at_rest, 0.02, 0.001));
     const std::string sentence = fe_headline(scene, runs).sentence;
-    EXPECT_NE(sentence.find("made up: what happened. made up: Self-excited, too: slid at least 2250 mm."),
+    EXPECT_NE(sentence.find("made up: It does not stand there: the sequence ends. made up: Self-excited, too: slid at least 2250 mm."),
               std::string::npos)
         << sentence;
-    EXPECT_EQ(sentence.find("what happened"), sentence.rfind("what happened")) << sentence;
+    EXPECT_EQ(sentence.find("It does not stand there"), sentence.rfind("It does not stand there")) << sentence;
 }
 
 TEST(Audit, B1_fe_a_state_after_the_earthquake_that_is_not_resolved_is_no_fall)

@@ -293,6 +293,8 @@ std::string crack_sentence(const std::vector<ContactRun>& runs)
     const ContactRun* most = most_tensioned(runs);
     if (!most || std::none_of(runs.begin(), runs.end(), would_crack)) return {};
     if (!would_crack(*most)) return " A tied lift would slip or part: see the table of cracking.";
+    if (!most->fe.cracks.paths.empty())
+        return fmt::format(" The concrete would crack here, too: {}; no traced crack goes there.", crack_words(*most));
     return fmt::format(" The concrete would crack here: {}{}, where the model has no joint; run  fe  with  crack = "
                        "\"traced\"  in [dam], or with a bonded [[lift_joint]] at elevation_m = {:.3g}.",
                        crack_words(*most),
