@@ -217,8 +217,8 @@ Ready prepare(Scene given, Method method, Records records, const PrepareOptions&
         given = with_joints_of_lifts(std::move(given));
     else if (method == Method::finite_elements && given.dam.crack == BodyCrack::traced) {
         given.dam.crack = BodyCrack::none;
-        given.notes.push_back({given.file.string(), 0, 0, "dam.crack = \"traced\" is left out: the concrete stays whole here.",
-                               "damslip fe, assess or Python", "run  damslip fe"});
+        given.notes.push_back(
+            {"", 0, 0, "dam.crack = \"traced\" is left out: the concrete stays whole here. damslip fe follows its cracks.", "", ""});
     }
     if (method == Method::finite_elements) {
         given = with_seam_body(std::move(given));
