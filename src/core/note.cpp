@@ -13,9 +13,10 @@ namespace damslip {
 
 namespace {
 
-/// A number of a note. Without digits in the sentence it is written with as many as it has.
+/// A number or a count of a note. Without digits in the sentence it is written with as many as it has.
 struct Number {
     double value;
+    bool whole = false;
 };
 
 } // namespace
@@ -32,6 +33,7 @@ struct fmt::formatter<damslip::Number> : fmt::formatter<double> {
     auto format(const damslip::Number& number, format_context& context) const
     {
         if (std::isinf(number.value)) return fmt::format_to(context.out(), "{}∞", number.value < 0.0 ? "-" : "");
+        if (plain && number.whole) return fmt::format_to(context.out(), "{:.0f}", number.value);
         if (plain) return fmt::format_to(context.out(), "{}", damslip::shortest(number.value));
         return fmt::formatter<double>::format(number.value, context);
     }
@@ -119,7 +121,7 @@ constexpr auto sentences = std::to_array<Sentence>({
     {inaccurate, "The factorisation ({} unknowns, {} non-zeros in the factor) is inaccurate: residual {:.1e}, error {:.1e}."},
     {out_of_memory, "Out of memory while factorising {} unknowns."},
     {mode_missing, "damping: mode {} was not found, mode {} takes its place"},
-    {damping_of_modes, "damping: {} % at {:.4g} and {:.4g} Hz, a_M = {:.4g} 1/s, b_K = {:.4g} s"},
+    {damping_of_modes, "damping: {:g} % at {:.4g} and {:.4g} Hz, a_M = {:.4g} 1/s, b_K = {:.4g} s"},
     {damping_given, "damping: as given, a_M = {:.4g} 1/s, b_K = {:.4g} s"},
     {no_mode_to_damp, "damping: no natural mode was found, the model is not damped; {}"},
     {no_mode_found, "no natural mode was found; {}"},
@@ -130,13 +132,13 @@ constexpr auto sentences = std::to_array<Sentence>({
                           "by |dS| = {3:.3g} kN/m ({4:.1f} %)"},
     {suction, "seepage: suction down to {:.3g} kPa under the base is taken as zero pressure"},
     {seepage_box, "seepage: no [foundation]; a box of {:.4g} m x {:.4g} m (300/45 x 100/45 base lengths) with permeability "
-                  "{} m/s is used"},
+                  "{:g} m/s is used"},
     {seepage_failed, "seepage: {}"},
     {drain_line, "seepage: drains at {:.3g} m are a line {:.3g} m deep held at a head of {:.4g} m"},
     {explicit_limit, "central difference, lumped mass: stable up to {:.5g} s, highest frequency {:.5g} Hz"},
     {explicit_limit_damped, "central difference, lumped mass: stable up to {0:.5g} s ({2:.4g} s without stiffness damping, "
                             "which acts half a step late), highest frequency {1:.5g} Hz"},
-    {explicit_steps, "steps of {:.4g} s, rows of the history every {} s"},
+    {explicit_steps, "steps of {:.4g} s, rows of the history every {:g} s"},
     {modes_exact, "superposition of {} modes up to {:.4g} Hz with {:.4g} % (x) and {:.4g} % (y) of the mass, exact in time"},
     {modes_coupled, "superposition of {} modes up to {:.4g} Hz with {:.4g} % (x) and {:.4g} % (y) of the mass, exact in time; "
                     "the undamped added mass couples them (largest {:.2g}), solved together"},
@@ -144,7 +146,7 @@ constexpr auto sentences = std::to_array<Sentence>({
                      "{:.2g} % of its acceleration, {:.2g} % of the base shear"},
     {not_finite, "not finite after step {} at {:.4g} s"},
     {stopped_by_user, "stopped by the user at {:.4g} s of {:.4g} s; results up to there are kept"},
-    {steps_done, "{} steps of {} s, {} unknowns"},
+    {steps_done, "{} steps of {:g} s, {} unknowns"},
 
     {stage_holds, "{}: in equilibrium, N' = {:.5g} MN/m, T = {:.5g} MN/m, mean slip {:.3g} mm, open length {:.3g} m, mu needed "
                   "{:.5f}."},
@@ -205,7 +207,7 @@ constexpr auto sentences = std::to_array<Sentence>({
                        "(docs/fe-contact.md, A dam that goes on sliding)."},
     {contact_unresolved, "Contact was not resolved in {} of {} steps, largest residual {:.1e} of N'."},
     {interrupted, "Interrupted at {:.2f} s, slip so far {:.4g} mm."},
-    {beyond_mesh, "Stopped at {:.2f} s: slipped {:.4g} m, beyond contact.max_slip_m = {} m."},
+    {beyond_mesh, "Stopped at {:.2f} s: slipped {:.4g} m, beyond contact.max_slip_m = {:g} m."},
     {scheme_gained, "Stopped at {:.2f} s: the time scheme has put {:.3g} J/m into the motion. Use a smaller step, damping, or "
                     "a more negative time.alpha."},
     {contact_gained, "Stopped at {:.2f} s: contact has put {:.3g} J/m into the motion. Use a smaller step, damping, or a more "
@@ -235,6 +237,11 @@ static_assert(in_order(), "each kind has its sentence, in the order of NoteKind"
 
 } // namespace note_text
 
+std::string_view sentence_of(NoteKind kind)
+{
+    return note_text::sentences[static_cast<std::size_t>(kind)].text;
+}
+
 std::string text_of(const Note& note)
 {
     const note_text::Sentence& sentence = note_text::sentences[static_cast<std::size_t>(note.kind)];
@@ -243,7 +250,7 @@ std::string text_of(const Note& note)
     for (const NoteValue& value : note.values) {
         if (const auto* whole = std::get_if<std::int64_t>(&value)) {
             if (!count) count = whole;
-            values.push_back(*whole);
+            values.push_back(Number{static_cast<double>(*whole), true});
         } else if (const auto* number = std::get_if<double>(&value)) {
             values.push_back(Number{*number});
         } else {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -140,7 +141,8 @@ struct Note {
     bool operator==(const Note&) const = default;
 };
 
-std::string text_of(const Note& note);             ///< the sentence
+std::string_view sentence_of(NoteKind kind);       ///< with a place in braces for each value
+std::string text_of(const Note& note);             ///< the sentence with its values
 std::string text_of(std::span<const Note> notes);  ///< one after the other
 
 } // namespace damslip
