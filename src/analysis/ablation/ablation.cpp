@@ -265,8 +265,7 @@ double shortest_time(Task&& task)
 std::string sentence(const sliding::SlideResult& r, const RigidModel& model)
 {
     if (fails_statically(r.status)) return model.why_it_fails();
-    if (reported(r.status, r.slip) || r.notes.empty()) return "";
-    return r.status == Status::runs_away || r.status == Status::rocks_first ? text_of(r.notes.back()) : text_of(r.notes.front());
+    return reported(r.status, r.slip) ? "" : ending_of(r);
 }
 
 MotionOutcome outcome(const sliding::SlideResult& r, const RigidModel& model)

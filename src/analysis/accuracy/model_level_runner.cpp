@@ -203,9 +203,7 @@ void ModelLevelRunner::run_rigid(const Scene& given, ModelLevelResult& result) c
                                                : slide_model(ready.scene, model, motion, 1);
             result.status = r.status;
             if (r.status != Status::at_rest) {
-                result.remark = r.notes.empty()                   ? std::string(status_row(r.status).meaning)
-                                : r.status == Status::rocks_first ? text_of(r.notes.back())
-                                                                  : text_of(r.notes.front());
+                result.remark = r.notes.empty() ? std::string(status_row(r.status).meaning) : ending_of(r);
                 return;
             }
             result.slip.push_back(r.slip);

@@ -172,6 +172,13 @@ void check_tipping(const RigidModel& model, double peak, sliding::SlideResult& r
                                : Note{NoteKind::tips_only, {tips}});
 }
 
+std::string ending_of(const sliding::SlideResult& result)
+{
+    if (result.notes.empty()) return "";
+    const bool added_last = result.status == Status::runs_away || result.status == Status::rocks_first;
+    return text_of(added_last ? result.notes.back() : result.notes.front());
+}
+
 sliding::RockingResult rock_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
                                   sliding::HistoryOutput history)
 {

@@ -107,6 +107,9 @@ void check_length(const RigidModel& model, sliding::SlideResult& result);
 /// @param peak  of the acceleration of the mass that drives it downstream [m/s^2]
 void check_tipping(const RigidModel& model, double peak, sliding::SlideResult& result);
 
+/// How a slide without a final slip ended, a sentence; empty: its notes say nothing.
+std::string ending_of(const sliding::SlideResult& result);
+
 /// The model that rocks and slides, under a motion with the scene's [sliding] options. @param model  no wedge
 sliding::RockingResult rock_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
                                   sliding::HistoryOutput history = sliding::HistoryOutput::none);
