@@ -24,7 +24,7 @@ struct ReductionReport {
     double seconds = 0.0;
 
     bool passed() const { return error <= wanted; }
-    Note missed_gate() const; ///< of one that did not pass
+    Note missed_gate() const; ///< the error beside what is allowed, of a reduction that errs too much
 };
 
 /// Rock with mass that lets waves out, reduced to its interface: two passive bodies in series,

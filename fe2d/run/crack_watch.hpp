@@ -22,7 +22,7 @@ struct TiedLift {
     double distance = 0.0;  ///< from the upstream face [m]
 };
 
-/// Where a crack goes: at each pair of the path of a traced crack σ₁ just before it was damaged; of one that is whole the largest.
+/// Where a crack goes. A pair of a traced crack keeps σ₁ of the step before it was damaged; a whole pair keeps the largest σ₁ so far.
 struct PathTension {
     Point at;             ///< [m]
     bool damaged = false; ///< the pair has come to its strength

@@ -261,20 +261,25 @@ TEST(Cracks, LargestTensionIsThatOfTheElements)
     EXPECT_NEAR(cracks.stress, 0.5 * yy + std::hypot(0.5 * yy, shear), 0.06 * yy); // the base holds the ends of the beam
 }
 
+/// Koyna's section at 0.47 g, one polarity. @param dam  keys of [dam] @param tables  more of them
+std::string koyna_text(const std::string& dam, const std::string& tables)
+{
+    const std::string data = std::string(source_dir()) + "/records/data/ec8_3.0_";
+    return "[section]\npolygon_m = [[0, 0], [70, 0], [19.25, 66.5], [14.8, 103], [0, 103]]\n"
+           "[dam]\ndensity_kg_m3 = 2643\nyoung_modulus_GPa = 31\n" + dam +
+           "[contact]\nfriction = 1\n[reservoir]\nlevel_m = 90.5\nmodel = \"added-mass\"\n[uplift]\nmodel = \"none\"\n" +
+           tables + "[time]\nsubsteps = 0\n[motion]\nscale_to_pga_m_s2 = 4.61\npolarity = 1\n"
+           "[[motion.record]]\nname = \"a\"\nhorizontal = \"" + data + "h.csv\"\nvertical = \"" + data + "v.csv\"\n";
+}
+
 /// Koyna's neck at 0.47 g: it cracks from face to face, within a fifth of a second, and the top stands; on two meshes.
 TEST(Cracks, CutTheNeckOfKoynaOnTwoMeshes)
 {
     const auto run_on = [](const std::string& size, const std::string& softening = "linear") {
-        const std::string data = std::string(source_dir()) + "/records/data/ec8_3.0_";
-        const Ready ready = ready_of(
-            "[section]\npolygon_m = [[0, 0], [70, 0], [19.25, 66.5], [14.8, 103], [0, 103]]\n"
-            "[dam]\ndensity_kg_m3 = 2643\nyoung_modulus_GPa = 31\n[contact]\nfriction = 1\n"
-            "[reservoir]\nlevel_m = 90.5\nmodel = \"added-mass\"\n[uplift]\nmodel = \"none\"\n"
-            "[lifts]\nelevations_m = [66]\nbond = \"bonded\"\nfriction = 1\ncohesion_kPa = 3120\n"
-            "tensile_strength_kPa = 2400\nfracture_energy_tension_N_m = 200\nfracture_energy_shear_N_m = 1000\n"
-            "softening = \"" + softening + "\"\nuplift = \"none\"\n[time]\nsubsteps = 0\n[mesh]\nsize_m = " + size +
-            "\n[motion]\nscale_to_pga_m_s2 = 4.61\npolarity = 1\n"
-            "[[motion.record]]\nname = \"a\"\nhorizontal = \"" + data + "h.csv\"\nvertical = \"" + data + "v.csv\"\n");
+        const Ready ready = ready_of(koyna_text(
+            "", "[lifts]\nelevations_m = [66]\nbond = \"bonded\"\nfriction = 1\ncohesion_kPa = 3120\n"
+                "tensile_strength_kPa = 2400\nfracture_energy_tension_N_m = 200\nfracture_energy_shear_N_m = 1000\n"
+                "softening = \"" + softening + "\"\nuplift = \"none\"\n[mesh]\nsize_m = " + size + "\n"));
         return std::move(runs_of(ready).front().fe);
     };
     const auto first = [](const fe2d::RunResult& run, double length) {
@@ -361,13 +366,8 @@ TEST(TracedCracks, ASlopingCutNeedsTheTangentOfItsDip)
 /// paths, meet and cut the neck.
 TEST(TracedCracks, FindTheirPathThroughTheNeckOfKoyna)
 {
-    const std::string data = std::string(source_dir()) + "/records/data/ec8_3.0_";
     const Ready ready = ready_of(
-        "[section]\npolygon_m = [[0, 0], [70, 0], [19.25, 66.5], [14.8, 103], [0, 103]]\n"
-        "[dam]\ndensity_kg_m3 = 2643\nyoung_modulus_GPa = 31\ntensile_strength_MPa = 2.4\ncrack = \"traced\"\n"
-        "[contact]\nfriction = 1\n[reservoir]\nlevel_m = 90.5\nmodel = \"added-mass\"\n[uplift]\nmodel = \"none\"\n"
-        "[time]\nsubsteps = 0\n[sliding]\nrun_out_max_s = 0\n[motion]\nscale_to_pga_m_s2 = 4.61\n"
-        "[[motion.record]]\nname = \"a\"\nhorizontal = \"" + data + "h.csv\"\nvertical = \"" + data + "v.csv\"\n");
+        koyna_text("tensile_strength_MPa = 2.4\ncrack = \"traced\"\n", "[sliding]\nrun_out_max_s = 0\n"));
     GroundMotion motion = ready.motions(ready.records().front(), 1).front();
     motion.accel_h.resize(240); // it is cut by then
     motion.accel_v.resize(240);
@@ -402,6 +402,24 @@ TEST(TracedCracks, FindTheirPathThroughTheNeckOfKoyna)
     const Polyline& path = scene.lift_joints.front().path;
     EXPECT_NEAR(std::atan2(path.back().y - fe2d::height_on(path, path.back().x - 1.0), 1.0) * 180.0 / 3.14159265, 32.0, 6.0);
     EXPECT_LT(fe2d::height_on(path, 12.0), 60.5);
+}
+
+/// A path that still moves is no plain PASS, and the answer names the crack.
+TEST(TracedCracks, APathThatHasNotSettledIsSaid)
+{
+    ContactRun run;
+    run.fe.status = Status::at_rest;
+    run.fe.cracks.known = true;
+    run.fe.slip = run.fe.max_slip = 1e-3;
+    run.fe.slip_error = 1e-5;
+    Scene scene = ready_of(column).scene;
+    scene.criteria.allowable_slip = 1.0;
+    run.mesh.check = MeshCheck::done;
+    EXPECT_EQ(pages::fe_headline(scene, {run}).verdict, "PASS");
+    run.unsettled_cracks = "crack 2";
+    const auto said = pages::fe_headline(scene, {run});
+    EXPECT_EQ(said.verdict, "PASS, the path of a crack not settled");
+    EXPECT_NE(said.sentence.find("The path of crack 2 is not settled"), std::string::npos) << said.sentence;
 }
 
 /// What traced cracks need, and what they do not go with.

@@ -21,6 +21,7 @@ struct ContactRun : MotionName {
     std::optional<fe2d::RunResult> exact;      ///< with rigid sticking, where that of `fe` gives way
     MeshError mesh;
     bool leaves_out = false; ///< something that the scene asks for (not_honoured()): no PASS rests on the slip
+    std::string unsettled_cracks = {}; ///< "crack 2, crack 3": traced ones whose path still moved; empty: none
     std::optional<double> tensile_strength = {}; ///< dam.tensile_strength, against which `fe.cracks` is held [Pa]
 };
 

@@ -128,7 +128,8 @@ bool ContactRuns::draw_anew(const std::vector<fe2d::RunResult>& found)
     std::vector<const fe2d::RunResult*> runs;
     for (const fe2d::RunResult& run : found) runs.push_back(&run);
     const Scene before = ready_.scene;
-    if (traced_.empty() || ready_.scene.dam.crack != BodyCrack::traced || watch_.stop_asked() || !draw_paths_anew(ready_.scene, runs, traced_)) return false;
+    if (ready_.scene.dam.crack != BodyCrack::traced || watch_.stop_asked() || !draw_paths_anew(ready_.scene, runs, traced_))
+        return false;
     make_model("paths of cracks drawn anew", before);
     return true;
 }
@@ -152,7 +153,7 @@ void ContactRuns::make_model(const std::string& what, const Scene& before)
                                 [&](const LiftJoint& joint) { return joint.name == crack.name; });
         });
         for (TracedCrack& crack : traced_)
-            if (!crack.settled) crack.passes = most_path_passes;
+            if (!crack.settled) crack.passes = most_path_passes, crack.no_mesh = true;
         options_.crack_starts = starts_of(ready_.scene, traced_);
         model_.emplace(ready_.scene, options_);
     }
@@ -175,6 +176,8 @@ std::vector<ContactRun> ContactRuns::run(const TakeRun& take)
             static_cast<MotionName&>(both[i]) = names[runs.size() + i];
             both[i].leaves_out = !not_honoured(ready_.scene, reduced_ ? methods::reduced : methods::fe).empty();
             both[i].tensile_strength = ready_.scene.dam.tensile_strength;
+            for (const TracedCrack& crack : traced_)
+                if (!crack.settled) both[i].unsettled_cracks += (both[i].unsettled_cracks.empty() ? "" : ", ") + crack.name;
             if (!found_.empty() && !found_[k].runs.empty()) both[i].fe = std::move(found_[k].runs[i]);
             run(motions[i], both[i]);
         });

@@ -1,7 +1,7 @@
 #include "analysis/fe/traced_cracks.hpp"
 
+#include "fe2d/mesh/faces.hpp"
 #include "scene/joint_bond.hpp"
-#include "scene/mesh_sizes.hpp"
 #include "scene/section.hpp"
 
 #include <algorithm>
@@ -48,17 +48,9 @@ public:
     double inside(Point p) const
     {
         double low = low_, high = high_;
-        for (const Polyline& line : below_) low = std::max(low, at(line, p.x) + margin_);
-        for (const Polyline& line : above_) high = std::min(high, at(line, p.x) - margin_);
+        for (const Polyline& line : below_) low = std::max(low, fe2d::height_on(line, p.x) + margin_);
+        for (const Polyline& line : above_) high = std::min(high, fe2d::height_on(line, p.x) - margin_);
         return std::clamp(p.y, std::min(low, high), high);
-    }
-    static double at(const Polyline& line, double x)
-    {
-        if (x <= line.front().x) return line.front().y;
-        for (std::size_t i = 1; i < line.size(); ++i)
-            if (x <= line[i].x)
-                return line[i - 1].y + (x - line[i - 1].x) / (line[i].x - line[i - 1].x) * (line[i].y - line[i - 1].y);
-        return line.back().y;
     }
 
 private:
@@ -93,9 +85,8 @@ Polyline tip_path(const Room& room, bool from_upstream, double start, double ste
 Polyline joined(const Room& room, const TracedCrack& crack, Polyline from, Polyline to, double step)
 {
     const double way = crack.from_upstream ? 1.0 : -1.0;
-    const auto ends_at_other = [&](const Polyline& p) { return way * (x_on(room.face(!crack.from_upstream), p.back().y) - p.back().x) < 1e-9; };
-    while (!to.empty() && !ends_at_other(from) && to.size() > 1 && way * (to.back().x - from.back().x) < step) to.pop_back();
-    if (!ends_at_other(from) && !to.empty()) {
+    const bool whole = way * (x_on(room.face(!crack.from_upstream), from.back().y) - from.back().x) < 1e-9;
+    if (!whole && !to.empty()) {
         // Points in between, so that the room is kept.
         const Point a = from.back(), b = to.back();
         const int parts = std::max(1, static_cast<int>(std::abs(b.x - a.x) / step));
@@ -215,104 +206,149 @@ Scene with_traced_crack(Scene scene, const fe2d::RunResult& seed, std::vector<Tr
     return scene;
 }
 
-bool draw_paths_anew(Scene& scene, const std::vector<const fe2d::RunResult*>& runs, std::vector<TracedCrack>& cracks)
+namespace {
+
+using Pairs = std::vector<fe2d::PathTension>;
+
+const fe2d::PathTension& nearest(const Pairs& pairs, double x)
 {
-    const double least = telling * *scene.dam.tensile_strength, element = element_length(scene);
-    const std::vector<LiftJoint> joints = scene.lift_joints;
-    bool moved = false;
-    for (TracedCrack& crack : cracks) {
-        if (crack.passes >= most_path_passes) continue;
-        std::size_t place = 0; // among the paths
-        for (const LiftJoint& j : joints) {
-            if (j.name == crack.name) break;
-            place += !j.path.empty();
-        }
-        const std::vector<fe2d::PathTension>* longest = nullptr;
-        for (const fe2d::RunResult* run : runs)
-            if (run->cracks.paths.size() > place &&
-                (!longest || cracked(run->cracks.paths[place]) > cracked(*longest)))
-                longest = &run->cracks.paths[place];
-        if (!longest) continue;
-        const std::vector<fe2d::PathTension>& pairs = *longest;
-        const std::ptrdiff_t now = cracked(pairs);
-        if (now == 0 || (crack.settled && now <= crack.damaged + more_damaged)) continue;
-        std::vector<bool> known(pairs.size(), false); // without a gap from a start
-        const auto mark = [&](bool upstream) {
-            for (std::size_t i = 0; i < pairs.size(); ++i) {
-                const std::size_t k = upstream ? i : pairs.size() - 1 - i;
-                if (!pairs[k].damaged) break;
-                known[k] = true;
-            }
-        };
-        if (!crack.other && !crack.alone && begins_at(pairs, !crack.from_upstream))
-            crack.other = (crack.from_upstream ? pairs.back() : pairs.front()).at.y;
+    return *std::min_element(pairs.begin(), pairs.end(), [x](const auto& a, const auto& b) {
+        return std::abs(a.at.x - x) < std::abs(b.at.x - x);
+    });
+}
+
+/// What a run tells of the path of a crack: the directions at pairs of its line that are damaged, without a gap from a start.
+class Drawing {
+public:
+    Drawing(const Scene& scene, const TracedCrack& crack, const Pairs& pairs)
+        : pairs_(pairs), known_(pairs.size(), false), line_(line_of(scene, crack.name)->path), room_(scene, crack.name, crack.start),
+          element_(element_length(scene)), least_(telling * *scene.dam.tensile_strength)
+    {
         mark(crack.from_upstream);
         if (crack.other) mark(!crack.from_upstream);
-        // Where the path leaves its line, what was found on the line beyond says nothing of it: the next pass knows more.
-        const Polyline line = line_of(scene, crack.name)->path;
-        const auto slope_of = [](Point a, Point b) { return (b.y - a.y) / (b.x - a.x); };
-        const double at_upstream = slope_of(line[0], line[1]), at_downstream = slope_of(line.end()[-2], line.end()[-1]);
-        double last = crack.from_upstream ? at_upstream : at_downstream;
-        bool left = false, ever_left = false;
-        const auto slope_at = [&](Point p) -> std::optional<double> {
-            const double x = p.x;
-            left = left || std::abs(p.y - Room::at(line, x)) > valid * element;
-            ever_left = ever_left || left;
-            if (left) return std::nullopt;
-            const auto next = std::min_element(pairs.begin(), pairs.end(), [x](const auto& a, const auto& b) {
-                return std::abs(a.at.x - x) < std::abs(b.at.x - x);
-            });
-            if (!known[static_cast<std::size_t>(next - pairs.begin())]) return std::nullopt;
-            const double slope = std::tan(next->angle);
-            if (next->stress >= least && std::abs(slope) <= steepest_path) last = slope;
-            return last; // else straight on: it was sheared
-        };
-        const Room room(scene, crack.name, crack.start);
-        const auto straight_on = [&](Point p) { return std::optional(slope_at(p).value_or(last)); };
-        Polyline from = crack.other ? tip_path(room, crack.from_upstream, crack.start, element, slope_at)
-                                    : tip_path(room, crack.from_upstream, crack.start, element, straight_on);
-        last = crack.from_upstream ? at_downstream : at_upstream, left = false;
-        Polyline to = crack.other ? tip_path(room, !crack.from_upstream, *crack.other, element, slope_at) : Polyline();
-        // Each end as far as it got there first.
-        const auto first_at = [&](double x) {
-            return std::min_element(pairs.begin(), pairs.end(), [x](const auto& a, const auto& b) {
-                       return std::abs(a.at.x - x) < std::abs(b.at.x - x);
-                   })->time;
-        };
+    }
+
+    /// The path anew. Two tips that do not come to meet on a path that rows can follow go on alone.
+    Polyline path(TracedCrack& crack)
+    {
         if (crack.other) {
-            const auto rising = [&](Polyline& tip) { // times rise towards the tip
-                std::size_t n = 1;
-                for (double t = 0.0; n < tip.size() && first_at(tip[n].x) >= t; ++n) t = first_at(tip[n].x);
-                tip.resize(n);
-            };
-            rising(from);
-            rising(to);
-            const double way = crack.from_upstream ? 1.0 : -1.0;
-            const auto too_steep = [&] {
-                const double apart = way * (to.back().x - from.back().x);
-                return apart < element || std::abs(to.back().y - from.back().y) > steepest_path * apart;
-            };
-            // Two tips that have come to meet are joined from a little before.
-            const auto points = static_cast<std::ptrdiff_t>(from.size() + to.size());
-            for (std::ptrdiff_t k = points / 5; k > 0 && too_steep() && std::min(from.size(), to.size()) > 1; --k)
-                (k % 2 == 0 ? from : to).pop_back();
-            if (too_steep()) {
-                crack.other.reset();
-                crack.alone = true;
-                last = crack.from_upstream ? at_upstream : at_downstream, left = false;
-                from = tip_path(room, crack.from_upstream, crack.start, element, straight_on);
-                to.clear();
-            }
+            Polyline from = tip(crack.from_upstream, crack.start, Beyond::ends),
+                     to = tip(!crack.from_upstream, *crack.other, Beyond::ends);
+            cut_where_met(from);
+            cut_where_met(to);
+            if (meet(from, to, crack.from_upstream ? 1.0 : -1.0))
+                return joined(room_, crack, std::move(from), std::move(to), element_);
+            crack.other.reset();
+            crack.alone = true;
         }
-        const Polyline path = joined(room, crack, std::move(from), std::move(to), element);
+        return joined(room_, crack, tip(crack.from_upstream, crack.start, Beyond::straight), {}, element_);
+    }
+
+    /// Largest distance of the path from its line, where the crack has come by [m].
+    double change(const Polyline& path) const
+    {
+        double largest = 0.0;
+        for (std::size_t i = 0; i < pairs_.size(); ++i)
+            if (known_[i]) largest = std::max(largest, std::abs(fe2d::height_on(path, pairs_[i].at.x) - pairs_[i].at.y));
+        return largest;
+    }
+    bool left_line() const { return ever_left_; } ///< by more than `valid` elements: the line says no more of the path there
+
+private:
+    enum class Beyond { ends, straight };
+
+    void mark(bool upstream)
+    {
+        for (std::size_t i = 0; i < pairs_.size(); ++i) {
+            const std::size_t k = upstream ? i : pairs_.size() - 1 - i;
+            if (!pairs_[k].damaged) break;
+            known_[k] = true;
+        }
+    }
+
+    Polyline tip(bool upstream, double start, Beyond beyond)
+    {
+        const Point a = upstream ? line_[0] : line_.end()[-2], b = upstream ? line_[1] : line_.end()[-1];
+        double slope = (b.y - a.y) / (b.x - a.x);
+        bool left = false;
+        return tip_path(room_, upstream, start, element_, [&](Point p) -> std::optional<double> {
+            left = left || std::abs(p.y - fe2d::height_on(line_, p.x)) > valid * element_;
+            ever_left_ = ever_left_ || left;
+            const fe2d::PathTension& pair = nearest(pairs_, p.x);
+            if (left || !known_[static_cast<std::size_t>(&pair - pairs_.data())])
+                return beyond == Beyond::straight ? std::optional(slope) : std::nullopt;
+            const double found = std::tan(pair.angle); // of a pair that was sheared it says nothing: straight on
+            if (pair.stress >= least_ && std::abs(found) <= steepest_path) slope = found;
+            return slope;
+        });
+    }
+
+    /// To where the other crack had come before: times rise towards a tip.
+    void cut_where_met(Polyline& tip) const
+    {
+        std::size_t n = 1;
+        for (double before = 0.0; n < tip.size() && nearest(pairs_, tip[n].x).time >= before; ++n)
+            before = nearest(pairs_, tip[n].x).time;
+        tip.resize(n);
+    }
+
+    /// Draws back both tips by up to a fifth until a path that rows can follow joins them. @returns whether there is one
+    bool meet(Polyline& from, Polyline& to, double way) const
+    {
+        const auto apart = [&] {
+            const double x = way * (to.back().x - from.back().x);
+            return x >= element_ && std::abs(to.back().y - from.back().y) <= steepest_path * x;
+        };
+        for (std::size_t k = (from.size() + to.size()) / 5; k > 0 && !apart() && std::min(from.size(), to.size()) > 1; --k)
+            (k % 2 == 0 ? from : to).pop_back();
+        return apart();
+    }
+
+    const Pairs& pairs_;
+    std::vector<bool> known_;
+    Polyline line_;
+    Room room_;
+    double element_, least_;
+    bool ever_left_ = false;
+};
+
+/// The pairs of a crack in the run that has cracked most of it; null: no run has its line.
+const Pairs* longest(const std::vector<const fe2d::RunResult*>& runs, const std::vector<LiftJoint>& joints, const std::string& name)
+{
+    std::size_t place = 0; // among the paths
+    for (const LiftJoint& joint : joints) {
+        if (joint.name == name) break;
+        place += !joint.path.empty();
+    }
+    const Pairs* found = nullptr;
+    for (const fe2d::RunResult* run : runs) {
+        if (run->cracks.paths.size() <= place) continue;
+        const Pairs& pairs = run->cracks.paths[place];
+        if (!found || cracked(pairs) > cracked(*found)) found = &pairs;
+    }
+    return found;
+}
+
+} // namespace
+
+bool draw_paths_anew(Scene& scene, const std::vector<const fe2d::RunResult*>& runs, std::vector<TracedCrack>& cracks)
+{
+    const std::vector<LiftJoint> joints = scene.lift_joints; // as they ran
+    bool moved = false;
+    for (TracedCrack& crack : cracks) {
+        const Pairs* pairs = crack.passes < most_path_passes ? longest(runs, joints, crack.name) : nullptr;
+        const std::ptrdiff_t damaged = pairs ? cracked(*pairs) : 0;
+        if (damaged == 0 || (crack.settled && damaged <= crack.damaged + more_damaged)) continue;
+        if (!crack.other && !crack.alone && begins_at(*pairs, !crack.from_upstream))
+            crack.other = (crack.from_upstream ? pairs->back() : pairs->front()).at.y;
+        Drawing drawing(scene, crack, *pairs);
+        Polyline path = drawing.path(crack);
         ++crack.passes;
-        crack.change = 0.0;
-        for (std::size_t i = 0; i < pairs.size(); ++i)
-            if (known[i]) crack.change = std::max(crack.change, std::abs(Room::at(path, pairs[i].at.x) - pairs[i].at.y));
-        crack.settled = (crack.other || !ever_left) && crack.change < element;
-        crack.damaged = now;
+        crack.change = drawing.change(path);
+        crack.settled = (crack.other || !drawing.left_line()) && crack.change < element_length(scene);
+        crack.damaged = damaged;
         if (crack.settled) continue;
-        put(scene, crack, path);
+        put(scene, crack, std::move(path));
         moved = true;
     }
     return moved;

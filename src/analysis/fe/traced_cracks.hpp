@@ -22,6 +22,7 @@ struct TracedCrack {
     int passes = 0;             ///< runs after which its path was drawn anew
     double change = 0.0;        ///< largest of its cracked part at the last of them: the error of the path [m]
     bool settled = false;       ///< it moved less than an element at the last pass
+    bool no_mesh = false;       ///< no mesh followed a path of it: the line of before stays
     std::ptrdiff_t damaged = 0; ///< pairs of its line at that pass
 };
 

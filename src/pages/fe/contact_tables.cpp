@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 #include <ranges>
 #include <string_view>
 #include <utility>
@@ -216,7 +215,7 @@ std::vector<ContactColumn> crack_columns()
             {{"tension_x_m", "x", "m", 4}, of_cracks([](const F& f) { return f.at.x; })},
             {{"tension_y_m", "y", "m", 4}, of_cracks([](const F& f) { return f.at.y; })},
             {{"tension_time_s", "at", "s", 4}, of_cracks([](const F& f) { return f.time; })},
-            {{"crack_dip_deg", "dip of a crack", "°", 3}, of_cracks([](const F& f) { return -180.0 / std::numbers::pi * f.angle; })},
+            {{"crack_dip_deg", "dip of a crack", "°", 3}, of_cracks([](const F& f) { return -f.angle / units::degree; })},
             {{"tied_lift", "tied lift"}, of_lift([](const fe2d::TiedLift& lift) { return Cell(lift.name); })},
             {{"tied_lift_index", "its index", "–", 3}, of_lift([](const fe2d::TiedLift& lift) { return Cell(lift.index); })},
             {{"tied_lift_x_m", "from its upstream end", "m", 4},
@@ -291,10 +290,13 @@ std::string crack_words(const ContactRun& r)
 std::string crack_sentence(const std::vector<ContactRun>& runs)
 {
     const ContactRun* most = most_tensioned(runs);
-    if (!most || std::none_of(runs.begin(), runs.end(), would_crack)) return {};
+    const std::string open = runs.empty() || runs.front().unsettled_cracks.empty()
+                                 ? ""
+                                 : fmt::format(" The path of {} is not settled: see Traced cracks.", runs.front().unsettled_cracks);
+    if (!most || std::none_of(runs.begin(), runs.end(), would_crack)) return open;
     if (!would_crack(*most)) return " A tied lift would slip or part: see the table of cracking.";
     if (!most->fe.cracks.paths.empty())
-        return fmt::format(" The concrete would crack here, too: {}; no traced crack goes there.", crack_words(*most));
+        return fmt::format(" The concrete would crack here, too: {}; no traced crack goes there.{}", crack_words(*most), open);
     return fmt::format(" The concrete would crack here: {}{}, where the model has no joint; run  fe  with  crack = "
                        "\"traced\"  in [dam], or with a bonded [[lift_joint]] at elevation_m = {:.3g}.",
                        crack_words(*most),
@@ -503,8 +505,7 @@ Table traced_table(const std::vector<TracedCrack>& cracks, const Scene& scene)
                 rows.push_back({crack, joint.path});
                 if (!crack.from_upstream) std::reverse(rows.back().path.begin(), rows.back().path.end());
             }
-    constexpr double degrees = 180.0 / std::numbers::pi;
-    const auto dip = [](Point a, Point b) { return degrees * std::atan2((a.y - b.y) * (b.x > a.x ? 1 : -1), std::abs(b.x - a.x)); };
+    const auto dip = [](Point a, Point b) { return std::atan((a.y - b.y) / (b.x - a.x)) / units::degree; };
     return table_of<Row>(
         "Traced cracks",
         {{in_brief({"name", "name"}), [](const Row& r) { return r.crack.name; }},
@@ -516,7 +517,8 @@ Table traced_table(const std::vector<TracedCrack>& cracks, const Scene& scene)
          {in_brief({"start_time_s", "f_t at", "s", 4}), [](const Row& r) { return r.crack.time; }},
          {{"passes", "passes"}, [](const Row& r) { return r.crack.passes; }},
          {in_brief({"path_change_m", "path ±", "m", 2}), [](const Row& r) { return r.crack.change; }},
-         {in_brief({"settled", "settled"}), [](const Row& r) { return std::string(r.crack.settled ? "yes" : "no"); }}},
+         {in_brief({"settled", "settled"}),
+          [](const Row& r) { return std::string(r.crack.settled ? "yes" : r.crack.no_mesh ? "no: no mesh follows it" : "no"); }}},
         rows,
         {"dip: positive where the path falls downstream; f_t at: when the concrete came to its strength at the start; path ±: what "
          "drawing the path anew moved of its cracked part at last. How far it has cracked: Cracks along the lift joints."});

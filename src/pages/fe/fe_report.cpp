@@ -240,7 +240,9 @@ Headline slip_headline(const Scene& scene, const std::vector<ContactRun>& runs)
     if (find(runs, open_after)) return {sentence, Outcome::unresolved, word(Status::not_resolved)};
     if (!allowable) return {sentence, Outcome::none, "No criterion for the slip."};
     if (verdict == Verdict::pass && cracks.empty()) return {sentence, Outcome::pass, "PASS"};
-    if (verdict == Verdict::pass) return {sentence, Outcome::pass, "PASS, cracking not modelled"};
+    if (verdict == Verdict::pass)
+        return {sentence, Outcome::pass,
+                runs.front().unsettled_cracks.empty() ? "PASS, cracking not modelled" : "PASS, the path of a crack not settled"};
     if (find(runs, [](const ContactRun& run) { return run.leaves_out; }))
         return {sentence, Outcome::unresolved, "undecided: they leave out what the scene asks for, see the notes"};
     const bool known = !find(runs, [](const ContactRun& run) { return std::isnan(slip_error(run).total); });
