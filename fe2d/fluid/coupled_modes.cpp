@@ -2,6 +2,7 @@
 
 #include "fe2d/solver/dense_product.hpp"
 
+#include <Spectra/MatOp/SparseCholesky.h>
 #include <Spectra/SymGEigsSolver.h>
 #include <algorithm>
 #include <cassert>
@@ -21,14 +22,13 @@ constexpr Index most_modes = 400;
 using ConstMap = Eigen::Map<const VectorXd>;
 using Map = Eigen::Map<VectorXd>;
 
-/// K, Q and L factorised.
+/// K and L factorised.
 struct Factors {
-    LinearSolver structure, water_mass, water;
+    LinearSolver structure, water;
 
     SolverReport factorise(const CoupledPencil& p)
     {
         if (const SolverReport& r = structure.factorise(p.stiffness); !r.ok()) return r;
-        if (const SolverReport& r = water_mass.factorise(p.water_mass); !r.ok()) return r;
         if (const SolverReport& r = water.factorise(p.water_stiffness); !r.ok()) return r;
         return structure.report();
     }
@@ -55,30 +55,22 @@ private:
     const Factors& f_;
 };
 
-/// diag(K, Q), product and inverse.
-class Stiffness {
-public:
-    using Scalar = double;
-    Stiffness(const CoupledPencil& pencil, const Factors& factors) : p_(pencil), f_(factors) {}
-    Index rows() const { return p_.stiffness.rows() + p_.water_mass.rows(); }
-    Index cols() const { return rows(); }
-    void perform_op(const double* in, double* out) const
-    {
-        const Index n = p_.stiffness.rows(), m = p_.water_mass.rows();
-        Map(out, n) = p_.stiffness * ConstMap(in, n);
-        Map(out + n, m) = p_.water_mass * ConstMap(in + n, m);
-    }
-    void solve(const double* in, double* out) const
-    {
-        const Index n = p_.stiffness.rows(), m = p_.water_mass.rows();
-        Map(out, n) = f_.structure.solve(VectorXd(ConstMap(in, n)));
-        Map(out + n, m) = f_.water_mass.solve(VectorXd(ConstMap(in + n, m)));
-    }
+using Cholesky = Spectra::SparseCholesky<double>;
 
-private:
-    const CoupledPencil& p_;
-    const Factors& f_;
-};
+/// diag(K, Q).
+SparseMatrix stiffness_of(const CoupledPencil& p)
+{
+    const Index n = p.stiffness.rows(), m = p.water_mass.rows();
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(static_cast<std::size_t>(p.stiffness.nonZeros() + p.water_mass.nonZeros()));
+    for (const auto& [matrix, first] : {std::pair(&p.stiffness, Index{0}), std::pair(&p.water_mass, n)})
+        for (Index j = 0; j < matrix->outerSize(); ++j)
+            for (SparseMatrix::InnerIterator it(*matrix, j); it; ++it)
+                entries.emplace_back(first + it.row(), first + j, it.value());
+    SparseMatrix stiffness(n + m, n + m);
+    stiffness.setFromTriplets(entries.begin(), entries.end());
+    return stiffness;
+}
 
 struct Pairs {
     VectorXd values; ///< 1/ω², largest first
@@ -86,20 +78,17 @@ struct Pairs {
     bool converged = true;
 };
 
-Pairs all_pairs(Inertia& inertia, Stiffness& stiffness)
+Pairs all_pairs(const Inertia& inertia, const SparseMatrix& stiffness)
 {
     const Index n = inertia.rows();
-    Eigen::MatrixXd a(n, n), b(n, n);
-    for (Index j = 0; j < n; ++j) {
-        const VectorXd unit = VectorXd::Unit(n, j);
-        inertia.perform_op(unit.data(), a.col(j).data());
-        stiffness.perform_op(unit.data(), b.col(j).data());
-    }
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (a + a.transpose()), b);
+    Eigen::MatrixXd a(n, n);
+    for (Index j = 0; j < n; ++j) inertia.perform_op(VectorXd::Unit(n, j).eval().data(), a.col(j).data());
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (a + a.transpose()), Eigen::MatrixXd(stiffness));
     return {solver.eigenvalues().reverse(), solver.eigenvectors().rowwise().reverse()};
 }
 
-Pairs largest_pairs(Inertia& inertia, Stiffness& stiffness, int count)
+/// In the basis of L, diag(K, Q) = L Lᵀ, where inner products need no matrix.
+Pairs largest_pairs(Inertia& inertia, const SparseMatrix& stiffness, int count)
 {
     const int n = static_cast<int>(inertia.rows()), space = std::max(2 * count + 1, 20);
     if (space >= n) return all_pairs(inertia, stiffness);
@@ -109,10 +98,11 @@ Pairs largest_pairs(Inertia& inertia, Stiffness& stiffness, int count)
         state = 1664525u * state + 1013904223u;
         x = static_cast<double>(state) / 2147483648.0 - 1.0;
     }
+    Cholesky factor(stiffness);
+    if (factor.info() != Spectra::CompInfo::Successful) return {{}, {}, false};
     VectorXd solved(n);
-    stiffness.solve(start.data(), solved.data()); // energies of both parts of one size
-    Spectra::SymGEigsSolver<Inertia, Stiffness, Spectra::GEigsMode::RegularInverse> solver(inertia, stiffness, count,
-                                                                                           space);
+    factor.lower_triangular_solve(start.data(), solved.data()); // energies of both parts of one size
+    Spectra::SymGEigsSolver<Inertia, Cholesky, Spectra::GEigsMode::Cholesky> solver(inertia, factor, count, space);
     solver.init(solved.data());
     solver.compute(Spectra::SortRule::LargestAlge, 1000, 1e-12);
     return {solver.eigenvalues(), solver.eigenvectors(), solver.info() == Spectra::CompInfo::Successful};
@@ -164,8 +154,7 @@ CoupledModes coupled_modes(const CoupledPencil& pencil, int count)
     modes.total_mass.x() += pencil.flux_x.dot(factors.water.solve(pencil.flux_x));
     modes.total_mass.y() += pencil.flux_y.dot(factors.water.solve(pencil.flux_y));
     Inertia inertia(pencil, factors);
-    Stiffness stiffness(pencil, factors);
-    const Pairs pairs = largest_pairs(inertia, stiffness, count);
+    const Pairs pairs = largest_pairs(inertia, stiffness_of(pencil), count);
     const Index found = std::min<Index>(count, pairs.values.size());
     if (!pairs.converged || found < std::min<Index>(count, inertia.rows()))
         modes.status = CoupledModesStatus::not_converged;

@@ -95,24 +95,66 @@ double ReducedRun::wanted(double largest_slip) const
     return scene_.time.slip_tolerance * std::max(largest_slip, options_.smallest_slip);
 }
 
+ReducedRun::Motion ReducedRun::motion_of(const GroundMotion& motion, const std::optional<int>& halvings) const
+{
+    return {GroundInput(motion, scene_.damping.mass, full_.damping().mass), scene_.time.dt.value_or(motion.dt), 1, options_.contact,
+            halvings};
+}
+
+ReducedRun::Start ReducedRun::stand(StaticContact& statics, const Contact& contact, RunResult& result) const
+{
+    const Stopwatch clock;
+    const Plane& plane = full_.structure().plane();
+    Start start{contact, Strength(contact, plane), ContactMemory(plane.pairs()), {}};
+    result.stages = full_.statics(statics, start.strength, start.rest);
+    start.balance = result.stages.back();
+    if (start.balance.status != StageStatus::ok) {
+        result.status = status_of(start.balance.status);
+        result.notes = start.balance.notes();
+    }
+    result.seconds.statics = clock.seconds();
+    return start;
+}
+
+ReducedState ReducedRun::shake_with(int halvings, Motion& motion, const Start& start, Strength& strength, RunResult& result) const
+{
+    motion.parts = 1 << halvings;
+    strength = start.strength;
+    result.halvings = halvings;
+    ReducedState end = shake(motion, *model_, strength, start.rest, &start.balance, result);
+    result.pair_slip = end.contact.slip - start.rest.slip;
+    return end;
+}
+
+std::vector<RunResult> ReducedRun::passes(const GroundMotion& motion, const Enough& enough) const
+{
+    std::vector<RunResult> passes;
+    RunResult standing;
+    if (!model_) return passes;
+    StaticContact statics(full_.static_operator(), scene_.contact, options_.contact);
+    const Start start = stand(statics, scene_.contact, standing);
+    if (start.balance.status != StageStatus::ok) return passes;
+    Motion loop = motion_of(motion, {});
+    for (int k = 0; k <= options_.largest_halvings; ++k) {
+        Strength strength = start.strength;
+        shake_with(k, loop, start, strength, passes.emplace_back());
+        const RunResult& pass = passes.back();
+        if (pass.status != Status::at_rest || pass.counts.unresolved > 0 || enough(passes)) break;
+    }
+    return passes;
+}
+
 ReducedState ReducedRun::refine(Motion& motion, Strength& strength, const Start& start, RunResult& result,
                                 std::vector<double>& first_slips) const
 {
-    const Strength at_start = strength;
-    const auto shake_with = [&](int pass) {
-        motion.parts = 1 << pass;
-        strength = at_start;
-        result.halvings = pass;
-        return shake(motion, *model_, strength, start.rest, &start.balance, result);
-    };
     const int first = motion.halvings.value_or(0);
-    ReducedState end = shake_with(first);
+    ReducedState end = shake_with(first, motion, start, strength, result);
     first_slips = result.history.slip;
     std::vector<SlipAtStep> slips{{first, result.slip, 0.0}};
     for (int k = first + 1; !motion.halvings && k <= options_.largest_halvings; ++k) {
         const std::vector<double> coarser = result.history.slip;
         const bool was_self_excited = result.status == Status::self_excited;
-        end = shake_with(k);
+        end = shake_with(k, motion, start, strength, result);
         slips.push_back({k, result.slip, largest_difference(coarser, result.history.slip)});
         result.slip_error = step_error(slips, strength.constant() ? contact_order : sudden_order);
         if (result.slip_error <= wanted(result.max_slip)) break;
@@ -135,25 +177,15 @@ RunResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contac
     result.modes = static_cast<int>(system.dam_modes) - 3;
     result.highest_frequency = std::sqrt(system.modes.omega2[system.dam_modes - 1]) / (2.0 * std::numbers::pi);
     const ContactStructure& structure = full_.structure();
-    Stopwatch clock;
     StaticContact statics(full_.static_operator(), scene_.contact, options_.contact);
-    Start start{contact.value_or(scene_.contact), ContactMemory(structure.plane().pairs()), {}};
-    Strength strength(start.contact, structure.plane());
-    result.stages = full_.statics(statics, strength, start.rest);
-    result.seconds.statics = clock.seconds();
-    start.balance = result.stages.back();
-    if (start.balance.status != StageStatus::ok) {
-        result.status = status_of(start.balance.status);
-        result.notes = start.balance.notes();
-        return result;
-    }
+    const Start start = stand(statics, contact.value_or(scene_.contact), result);
+    if (start.balance.status != StageStatus::ok) return result;
 
-    clock = Stopwatch();
-    Motion loop{GroundInput(motion, scene_.damping.mass, full_.damping().mass), scene_.time.dt.value_or(motion.dt), 1,
-                options_.contact, halvings ? halvings : scene_.time.substeps};
+    Stopwatch clock;
+    Motion loop = motion_of(motion, halvings ? halvings : scene_.time.substeps);
+    Strength strength = start.strength;
     std::vector<double> first;
     const ReducedState moved = refine(loop, strength, start, result, first);
-    result.pair_slip = moved.contact.slip - start.rest.slip;
     result.pair_opening = moved.contact.opening;
     const bool over = result.status == Status::at_rest || result.status == Status::sliding_at_end;
     const double length = structure.plane().length();

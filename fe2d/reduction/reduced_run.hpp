@@ -5,10 +5,14 @@
 #include "fe2d/reduction/reduced_operator.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "fe2d/run/ground_input.hpp"
+#include "fe2d/run/strength.hpp"
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace damslip::fe2d {
 
@@ -40,6 +44,11 @@ public:
     RunResult run(const GroundMotion& motion, const std::optional<Contact>& contact = {},
                       const std::optional<int>& halvings = {},
                       TruncationEstimate estimate = TruncationEstimate::made) const;
+    /// Asked after each pass of passes(), with all so far: true, and no smaller step is made.
+    using Enough = std::function<bool(std::span<const RunResult> passes)>;
+    /// Passes with steps of Δt, Δt/2, Δt/4, ... until one does not come to rest, or `enough`: of each the history and the largest
+    /// slip. None where nothing can move.
+    std::vector<RunResult> passes(const GroundMotion& motion, const Enough& enough) const;
     /// Why no run has an answer: a sentence for the user; empty: there is a model.
     const std::vector<Note>& why_not() const { return why_not_; }
 
@@ -54,7 +63,8 @@ private:
     };
     /// Where the dam stands before it moves.
     struct Start {
-        Contact contact;     ///< strength
+        Contact contact;
+        Strength strength;   ///< after the static stages
         ContactMemory rest;  ///< of the pairs
         StageResult balance; ///< the last static stage
     };
@@ -66,6 +76,11 @@ private:
     double highest_frequency() const; ///< ω up to which pressures are to be right [rad/s]
     std::vector<Note> obstacle() const; ///< of the scene; empty: none
     const Estimators& estimators() const;
+    Motion motion_of(const GroundMotion& motion, const std::optional<int>& halvings) const;
+    /// The static stages, into `result`.
+    Start stand(StaticContact& statics, const Contact& contact, RunResult& result) const;
+    /// One pass. @param strength  gets that at the end
+    ReducedState shake_with(int halvings, Motion& motion, const Start& start, Strength& strength, RunResult& result) const;
     /// From rest to the end of the run-out; history, slip and counts go into `result`.
     /// @param balance  the run is watched for sliding by itself; null: it is not
     /// @returns the state at the end

@@ -84,6 +84,12 @@ struct LiftResult {
     double cut_factor = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// What runs on few modes of the dam, with smaller steps than the run's, add to its slip (CorrectedRun).
+struct StepCorrection {
+    double slip = 0.0; ///< part of RunResult::slip [m]
+    double dt = 0.0;   ///< the smallest of their steps [s]
+};
+
 struct RunResult {
     Status status = Status::not_resolved; ///< not_resolved until the record has run
     std::vector<Note> notes;              ///< how it ended, with the numbers; of a stage that fails, that stage's
@@ -94,6 +100,7 @@ struct RunResult {
     double slip = 0.0;             ///< final, area mean, since the static state [m]
     double max_slip = 0.0;         ///< largest |slip| of all steps on the way, between the rows of the history too [m]
     double slip_error = 0.0;       ///< estimate of what the time step leaves open, at any time [m]; NaN: not estimated
+    std::optional<StepCorrection> correction; ///< none: the steps themselves are small enough, or fixed
     // Of a run on few modes of the dam (ReducedRun).
     int modes = 0;                  ///< elastic modes kept, the three rigid ones apart; 0: the whole dam
     double highest_frequency = 0.0; ///< of them [Hz]

@@ -138,12 +138,14 @@ std::vector<KeyGroup> fe_groups()
               "k of the steps dt / 2^k of FE runs with contact, 0 ... 10; fixed, without an estimate of the error", "2",
               at(&TimeOptions::substeps)),
          without_substeps(
-             word("stepping", "uniform",
-                  "how chosen sub-steps are spread: all alike, or small ones only where the local error of "
-                  "the slip asks for them, around its beginnings, ends and turns",
-                  "\"adaptive\"",
+             word("stepping", "auto",
+                  "how sub-steps are chosen: auto: uniform ones, and runs on few modes of the dam with smaller ones correct the slip "
+                  "of fe where the dam can be reduced; uniform: halved until the slip stays; adaptive: small ones only where the "
+                  "local error of the slip asks for them, around its beginnings, ends and turns",
+                  "\"uniform\"",
                   choice(&TimeOptions::stepping,
-                         std::vector<std::pair<std::string, Stepping>>{{"uniform", Stepping::uniform},
+                         std::vector<std::pair<std::string, Stepping>>{{"auto", Stepping::automatic},
+                                                                       {"uniform", Stepping::uniform},
                                                                        {"adaptive", Stepping::adaptive}}))),
          without_substeps(
              number("slip_tolerance", none, Range::half_open(0, 1), "0.01",

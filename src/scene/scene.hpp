@@ -464,15 +464,16 @@ enum class TimeScheme {
     central_difference, ///< explicit
     modal               ///< superposition of modes: linear models only
 };
-/// How chosen sub-steps are spread: all alike, or small ones where the slip changes its course (StepControl).
-enum class Stepping { uniform, adaptive };
+/// How sub-steps are chosen: all alike, corrected by runs on few modes of the dam where it can be reduced (fe2d::CorrectedRun), or
+/// else halved until the slip stays; always halved; or small ones where the slip changes its course (StepControl).
+enum class Stepping { automatic, uniform, adaptive };
 
 struct TimeOptions {
     TimeScheme scheme = TimeScheme::automatic;
     double alpha = -0.05;            ///< HHT, -1/3 ... 0 [-]
     double gamma = 0.5, beta = 0.25; ///< Newmark [-]
     std::optional<double> dt;        ///< [s]; default: the record's
-    Stepping stepping = Stepping::uniform;
+    Stepping stepping = Stepping::automatic;
     std::optional<int> substeps;  ///< k of FE steps dt / 2^k, 0 ... 10; none: chosen by slip_tolerance
     double slip_tolerance = 0.01; ///< error of the slip over the largest slip on the way, wanted of the time step [-]
 };

@@ -415,6 +415,7 @@ TEST(TracedCracks, APathThatHasNotSettledIsSaid)
     Scene scene = ready_of(column).scene;
     scene.criteria.allowable_slip = 1.0;
     run.mesh.check = MeshCheck::done;
+    run.mesh.base = 1e-6;
     EXPECT_EQ(pages::fe_headline(scene, {run}).verdict, "PASS");
     run.unsettled_cracks = "crack 2";
     const auto said = pages::fe_headline(scene, {run});

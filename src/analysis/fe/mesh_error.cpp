@@ -99,7 +99,7 @@ MeshError CoarserMesh::error_of(const fe2d::EarthquakeRun& model, const fe2d::Ru
         return result;
     }
     result.check = MeshCheck::done;
-    result.base = std::abs(run.slip - coarse.slip);
+    result.base = std::abs(run.slip - (run.correction ? run.correction->slip : 0.0) - coarse.slip); // at the same steps
     for (std::size_t k = 0; k < run.lifts.size(); ++k)
         result.lifts.push_back(std::abs(run.lifts[k].slip - coarse.lifts[k].slip));
     return result;

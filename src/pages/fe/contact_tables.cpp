@@ -251,6 +251,10 @@ RunColumns::RunColumns(const std::optional<double>& allowable)
                         [](const ContactRun& r) { return r.fe.highest_frequency; }},
       steps{{"steps", "steps"}, [](const ContactRun& r) { return r.fe.counts.steps; }},
       dt{{"dt_s", "step", "s", 4}, [](const ContactRun& r) { return r.fe.dt; }},
+      correction{{"step_correction_mm", "correction", "mm", 3},
+                 [](const ContactRun& r) { return r.fe.correction ? Cell(1e3 * r.fe.correction->slip) : Cell(); }},
+      corrected_dt{{"corrected_dt_s", "to step", "s", 4},
+                   [](const ContactRun& r) { return r.fe.correction ? Cell(r.fe.correction->dt) : Cell(); }},
       unresolved{{"unresolved", "unresolved"}, [](const ContactRun& r) { return r.fe.counts.unresolved; }},
       residual{{"residual", "residual", "–", 2}, [](const ContactRun& r) { return r.fe.counts.largest_residual; }},
       energy_error{{"energy_error", "energy", "–", 2}, [](const ContactRun& r) { return r.fe.energy_error; }},
@@ -356,7 +360,7 @@ Table contact_run_table(const std::vector<ContactRun>& runs, const std::optional
     std::vector<ContactColumn> columns = answer_columns(c, c.slip, runs);
     if (few_modes(runs)) columns.insert(columns.end(), {c.modes, c.highest_frequency});
     columns.insert(columns.end(),
-                   {c.steps, c.dt, c.unresolved, c.residual, c.energy_error, c.seconds, c.slid_at_least});
+                   {c.steps, c.dt, c.correction, c.corrected_dt, c.unresolved, c.residual, c.energy_error, c.seconds, c.slid_at_least});
     for (ContactColumn& column : crack_columns()) columns.push_back(std::move(column));
     return table_of(run_title(runs), columns, runs);
 }
@@ -372,12 +376,15 @@ Table run_solution_table(const std::vector<ContactRun>& runs, bool with_seconds)
     const RunColumns c({});
     std::vector<ContactColumn> columns{record_column, polarity_column};
     if (few_modes(runs)) columns.insert(columns.end(), {c.modes, c.highest_frequency});
-    columns.insert(columns.end(), {c.steps, c.dt, c.unresolved, c.residual});
+    const bool corrected = std::any_of(runs.begin(), runs.end(), [](const ContactRun& r) { return r.fe.correction.has_value(); });
+    columns.insert(columns.end(), {c.steps, c.dt});
+    if (corrected) columns.insert(columns.end(), {c.correction, c.corrected_dt});
+    columns.insert(columns.end(), {c.unresolved, c.residual});
     if (!few_modes(runs)) columns.push_back(c.energy_error);
     if (with_seconds) columns.push_back(c.seconds);
     return table_of("How they were computed", columns, runs,
-                    {std::string("residual: largest complementarity residual over N'; energy: imbalance at the end over "
-                                 "the largest term") +
+                    {std::string(corrected ? "correction: of the slip, to smaller steps, by runs on few modes of the dam; " : "") +
+                     "residual: largest complementarity residual over N'; energy: imbalance at the end over the largest term" +
                      (with_seconds ? "; time without the shared set-up." : ".")});
 }
 

@@ -43,7 +43,7 @@ struct RunColumns {
     explicit RunColumns(const std::optional<double>& allowable); ///< slip [m]
 
     C record, polarity, status, slip, modes_error, step_error, mesh_error, total_error, error_parts, max_slip, rigid_slip, verdict,
-        modes, highest_frequency, steps, dt, unresolved, residual, energy_error, seconds, slid_at_least;
+        modes, highest_frequency, steps, dt, correction, corrected_dt, unresolved, residual, energy_error, seconds, slid_at_least;
     C slip_in_words; ///< for people: "at least 512" of a dam that goes on by itself
 };
 

@@ -1,0 +1,99 @@
+#include "fe2d/reduction/corrected_run.hpp"
+
+#include "core/watch.hpp"
+#include "fe2d/run/step_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace damslip::fe2d {
+
+namespace {
+
+constexpr double share = 0.1;          ///< of the correction, that may be wrong in any case
+constexpr std::size_t most_passes = 4; ///< on few modes; slips that are still open are not of a kind to be corrected
+
+/// A pass on few modes from which the full run may start, and what the slip then leaves open.
+struct Choice {
+    std::size_t coarse = 0;
+    double of_step = 0.0, of_correction = 0.0; ///< error [m]
+};
+
+/// The last pass is the finest.
+std::optional<Choice> coarsest_within(std::span<const RunResult> passes, double order, double wanted)
+{
+    if (passes.size() < 2 || passes.back().status != Status::at_rest) return {};
+    std::vector<SlipAtStep> slips;
+    for (std::size_t k = 0; k < passes.size(); ++k)
+        slips.push_back({passes[k].halvings, passes[k].slip,
+                         k == 0 ? 0.0 : largest_difference(passes[k - 1].history.slip, passes[k].history.slip)});
+    const double of_step = step_error(slips, order);
+    for (std::size_t k = 0; k + 1 < passes.size(); ++k) {
+        const double of_correction = share * largest_difference(passes[k].history.slip, passes.back().history.slip);
+        if (of_step + of_correction <= wanted) return Choice{k, of_step, of_correction};
+    }
+    return {};
+}
+
+double at(const std::vector<double>& series, std::size_t row)
+{
+    return series[std::min(row, series.size() - 1)];
+}
+
+void correct(const RunResult& coarse, const RunResult& fine, double record_end, RunResult& run)
+{
+    const auto change = [](const std::vector<double>& from, const std::vector<double>& to, std::size_t row) {
+        return at(to, row) - at(from, row);
+    };
+    RunHistory& history = run.history;
+    const auto end_of_record = static_cast<std::size_t>(
+        std::lower_bound(history.time.begin(), history.time.end(), record_end - 1e-9) - history.time.begin());
+    const double shaken = change(coarse.history.slip, fine.history.slip, end_of_record), all = fine.slip - coarse.slip;
+    for (std::size_t row = 0; row < history.time.size(); ++row) {
+        for (std::vector<double>* slip : {&history.slip, &history.slip_heel, &history.slip_middle, &history.slip_toe})
+            (*slip)[row] += change(coarse.history.slip, fine.history.slip, row);
+        history.crest_x[row] += change(coarse.history.crest_x, fine.history.crest_x, row);
+    }
+    run.pair_slip.array() += all;
+    run.state.slip.array() += all;
+    run.after.slip += all;
+    run.correction = StepCorrection{all, fine.dt};
+    run.slip += all;
+    run.max_slip = std::max(run.max_slip + fine.max_slip - coarse.max_slip, std::abs(run.slip));
+    run.run_out.slip_shaking += shaken;
+    run.run_out.slip_at_rest += all - shaken;
+    for (Note& note : run.notes)
+        if (note.kind == NoteKind::slip_at_rest) note.values.front() = 1e3 * run.slip;
+}
+
+} // namespace
+
+CorrectedRun::CorrectedRun(const EarthquakeRun& full, const Scene& scene, const RunOptions& options)
+    : full_(full), tolerance_(scene.time.slip_tolerance), smallest_slip_(options.smallest_slip),
+      order_(Strength(scene.contact, full.structure().plane()).constant() ? contact_order : sudden_order), few_(full, scene, options)
+{
+}
+
+RunResult CorrectedRun::run(const GroundMotion& motion) const
+{
+    const auto wanted = [&](double largest_slip) { return tolerance_ * std::max(largest_slip, smallest_slip_); };
+    const Stopwatch clock;
+    std::optional<Choice> choice;
+    const std::vector<RunResult> passes = few_.passes(motion, [&](std::span<const RunResult> so_far) {
+        choice = coarsest_within(so_far, order_, wanted(so_far.back().max_slip));
+        return choice || so_far.size() == most_passes;
+    });
+    const double seconds = clock.seconds();
+    if (!choice) return full_.run(motion);
+    const RunResult &coarse = passes[choice->coarse], &fine = passes.back();
+    RunResult run = full_.run_at(motion, {coarse.halvings, {}});
+    if (run.status == Status::interrupted) return run;
+    if (run.status != Status::at_rest) return full_.run(motion);
+    run.slip_error = choice->of_step + std::max(choice->of_correction, largest_difference(run.history.slip, coarse.history.slip));
+    if (run.slip_error > wanted(run.max_slip)) return full_.run(motion);
+    run.seconds.dynamics += seconds;
+    correct(coarse, fine, motion.dt * static_cast<double>(motion.accel_h.size() - 1), run);
+    return run;
+}
+
+} // namespace damslip::fe2d
