@@ -44,18 +44,16 @@ double at(const std::vector<double>& series, std::size_t row)
 
 void correct(const RunResult& coarse, const RunResult& fine, double record_end, RunResult& run)
 {
-    const auto change = [](const std::vector<double>& from, const std::vector<double>& to, std::size_t row) {
-        return at(to, row) - at(from, row);
-    };
     RunHistory& history = run.history;
+    std::vector<double> change;
+    for (std::size_t row = 0; row < history.time.size(); ++row) {
+        change.push_back(at(fine.history.slip, row) - at(coarse.history.slip, row));
+        history.crest_x[row] += at(fine.history.crest_x, row) - at(coarse.history.crest_x, row);
+    }
+    add_to_slip(change, history);
     const auto end_of_record = static_cast<std::size_t>(
         std::lower_bound(history.time.begin(), history.time.end(), record_end - 1e-9) - history.time.begin());
-    const double shaken = change(coarse.history.slip, fine.history.slip, end_of_record), all = fine.slip - coarse.slip;
-    for (std::size_t row = 0; row < history.time.size(); ++row) {
-        for (std::vector<double>* slip : {&history.slip, &history.slip_heel, &history.slip_middle, &history.slip_toe})
-            (*slip)[row] += change(coarse.history.slip, fine.history.slip, row);
-        history.crest_x[row] += change(coarse.history.crest_x, fine.history.crest_x, row);
-    }
+    const double shaken = at(change, end_of_record), all = change.back();
     run.pair_slip.array() += all;
     run.state.slip.array() += all;
     run.after.slip += all;

@@ -383,6 +383,9 @@ RunFrame FrameSpool::read(std::size_t index) const
     frame.time = instant[0];
     frame.mean_slip = instant[1];
     for_each_part(frame, [&](auto& part) { read_values(file_.get(), part); });
+    const double change = change_ ? change_(frame.time) : 0.0;
+    frame.mean_slip += change;
+    frame.slip.array() += change;
     return frame;
 }
 
@@ -417,6 +420,25 @@ void StateKeeper::look(const DynamicState& state, double time, double slip, doub
         keep(Instant::slides_fastest);
     }
     keep(Instant::end);
+}
+
+void StateKeeper::add_to_slip(const std::function<double(double time)>& change)
+{
+    for (StoredState& kept : kept_) kept.slip += change(kept.time);
+}
+
+void add_to_slip(const std::vector<double>& change, RunHistory& history)
+{
+    for (std::vector<double>* slip : {&history.slip, &history.slip_heel, &history.slip_middle, &history.slip_toe})
+        for (std::size_t row = 0; row < change.size(); ++row) (*slip)[row] += change[row];
+    PairHistory& pairs = history.by_pair;
+    for (std::size_t i = 0; i < pairs.slip.size(); ++i) pairs.slip[i] += change[i / static_cast<std::size_t>(pairs.pairs)];
+    const auto at = [change, times = history.time](double time) {
+        const auto next = std::lower_bound(times.begin(), times.end(), time);
+        return change[static_cast<std::size_t>(std::min(next, times.end() - 1) - times.begin())];
+    };
+    history.states.add_to_slip(at);
+    if (history.frames) history.frames->add_to_slip(at);
 }
 
 std::vector<StoredState> StateKeeper::states() const

@@ -5,8 +5,10 @@
 
 #include <Eigen/Core>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace damslip::fe2d {
@@ -37,6 +39,8 @@ public:
     std::size_t count() const { return places_.size(); }
     double last_time() const { return last_; } ///< of the last frame [s] @pre count() > 0
     RunFrame read(std::size_t index) const;    ///< @pre index < count()
+    /// Adds to the slips of all pairs in the frames read from now on. @param change  at a time [s; m]
+    void add_to_slip(std::function<double(double time)> change) { change_ = std::move(change); }
 
 private:
     struct Close {
@@ -45,6 +49,7 @@ private:
     std::unique_ptr<std::FILE, Close> file_;
     std::vector<long> places_; ///< of the frames, bytes from the start
     double interval_, next_ = 0.0, last_ = 0.0;
+    std::function<double(double)> change_; ///< empty: none
 };
 
 /// Instants of a run whose displacements are kept.
@@ -71,6 +76,7 @@ public:
     /// @param time  in the run's history [s] @param slip  area mean since the static state [m] @param crest_x  since the static state [m]
     void look(const DynamicState& state, double time, double slip, double crest_x);
 
+    void add_to_slip(const std::function<double(double time)>& change); ///< as of FrameSpool
     /// In order of time. The end is the last state looked at.
     std::vector<StoredState> states() const;
 
@@ -148,6 +154,10 @@ struct RunHistory {
     StateKeeper states;                 ///< displacements of some instants; empty with PairSeries::none
     std::shared_ptr<FrameSpool> frames; ///< null: not asked for
 };
+
+/// Adds to the slips of the base, at heel and toe and of its pairs alike, and to those of kept instants and frames. Displacements stay.
+/// @param change  by row [m]
+void add_to_slip(const std::vector<double>& change, RunHistory& history);
 
 /// Rotation of the base over the rock [rad]: the slope of the area-weighted least-squares line through the openings,
 ///

@@ -70,7 +70,7 @@ class Results(unittest.TestCase):
     def test_a_result_says_its_sentence(self):
         printed = json.loads(program("fe", PROFILE, "--polarity", "1", "--no-mesh-error", "--json", "--quiet"))
         self.assertIn(printed["headline"], repr(self.fe))
-        self.assertIn(f"{1e3 * self.fe.worst.slip:.4g} mm", repr(self.fe))
+        self.assertIn(f"{1e3 * self.fe.worst.max_slip:.4g} mm", repr(self.fe))
         self.assertEqual(self.fe.verdict, self.fe.json()["verdict"])
 
     def test_accuracy_names_a_rung(self):
