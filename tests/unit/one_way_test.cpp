@@ -105,7 +105,7 @@ TEST_P(OneWay, FiniteElementsGiveTheSameBits)
     EXPECT_EQ(only_row("fe").results.slip, slip);
     const ModelLevelResult model_level = this->model_level(GetParam().model_level);
     ASSERT_TRUE(model_level.done()) << model_level.remark;
-    EXPECT_EQ(model_level.slip.at(0), slip);
+    EXPECT_EQ(model_level.slip(0), slip);
 }
 
 TEST_P(OneWay, TheRigidBlockGivesTheSameBits)
@@ -120,7 +120,7 @@ TEST_P(OneWay, TheRigidBlockGivesTheSameBits)
     EXPECT_EQ(answer({"sweep", "--method", "rigid-v"})["rows"][0]["slip_m"], slip);
     const ModelLevelResult model_level = this->model_level("rigid:h+v");
     ASSERT_TRUE(model_level.done()) << model_level.remark;
-    EXPECT_EQ(model_level.slip.at(0), slip);
+    EXPECT_EQ(model_level.slip(0), slip);
 }
 
 INSTANTIATE_TEST_SUITE_P(SixScenes, OneWay, testing::ValuesIn(scenes),
