@@ -138,7 +138,7 @@ std::vector<std::string> messages_of(const HierarchyFacts& facts, const Loaded& 
     for (const ModelLevelResult& r : results)
         if (!r.done())
             messages.push_back(fmt::format("{} {}: {}", model_level_id(r.model_level),
-                                           r.outcome == ModelLevelOutcome::skipped ? "skipped" : word(r.status), r.remark));
+                                           r.skipped ? "skipped" : word(r.status), r.remark));
     if (interrupted) messages.push_back("Interrupted: the model levels that were finished count.");
     return messages;
 }
@@ -161,10 +161,8 @@ void write_csv(const std::filesystem::path& out, const Scene& scene, const std::
 int run_one(const AccuracyArguments& a, const Loaded& loaded, const ModelLevelRunner& runner, const Streams& streams)
 {
     const ModelLevel model_level = *parse_model_level(a.model_level);
-    HierarchyCalls calls;
-    calls.run = [&](const ModelLevel& r) { return runner.run(r); };
-    const ModelLevelResult result = run_repeatedly(model_level, 1, calls);
-    if (result.outcome == ModelLevelOutcome::refused)
+    const ModelLevelResult result = runner.run(model_level);
+    if (result.status == Status::refused)
         throw InputError(
             Diagnostic{a.inputs.scene.string(), 0, 0, fmt::format("--model-level {} is refused: {}", a.model_level, result.remark),
                        "a model level that this scene admits", "leave --model-level out: the table lists those that run"});
@@ -210,7 +208,7 @@ std::vector<ModelLevelResult> run_aloud(const AccuracyArguments& a, const Loaded
             r.done() ? fmt::format("{:<32} {:>10.5g} mm {:>9.3g} s", model_level_id(r.model_level), r.largest_slip() / units::mm,
                                    r.seconds)
                      : fmt::format("{:<32} {}: {}", model_level_id(r.model_level),
-                                   r.outcome == ModelLevelOutcome::skipped ? "skipped" : word(r.status), r.remark);
+                                   r.skipped ? "skipped" : word(r.status), r.remark);
         if (streams.bar)
             *streams.bar << "\r  " << said << "\n";
         else if (line_is_due())

@@ -1,5 +1,6 @@
 #include "analysis/fe/contact_runs.hpp"
 #include "analysis/fe/tied_runs.hpp"
+#include "analysis/fe/variants.hpp"
 #include "analysis/fe/state_file.hpp"
 #include "analysis/prepare/reducible.hpp"
 #include "analysis/spectrum/spectrum_level.hpp"

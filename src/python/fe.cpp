@@ -5,6 +5,7 @@
 
 #include "analysis/fe/contact_runs.hpp"
 #include "analysis/fe/tied_runs.hpp"
+#include "analysis/fe/variants.hpp"
 #include "core/input_error.hpp"
 #include "pages/fe/fe_pages.hpp"
 

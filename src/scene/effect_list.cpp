@@ -1,5 +1,7 @@
 #include "scene/effect_plan.hpp"
+#include "scene/rock_mass.hpp"
 
+#include <array>
 #include <cassert>
 
 namespace damslip {
@@ -44,6 +46,32 @@ std::span<const EffectRow> effect_rows()
         return all;
     }();
     return rows;
+}
+
+std::span<const OtherModel> other_models()
+{
+    static constexpr std::array models{
+        OtherModel{"massless rock", "rock=massless", Effect::rock_inertia, rock_radiates, with_massless_rock},
+        OtherModel{"radiating rock", "rock=radiating", std::nullopt,
+                   [](const Scene& s) {
+                       return rock_kind(s) == RockKind::massless && s.time.scheme != TimeScheme::central_difference;
+                   },
+                   with_radiating_rock},
+        OtherModel{"added mass", "", Effect::acoustic_water,
+                   [](const Scene& s) { return s.reservoir && s.reservoir->model == ReservoirModel::acoustic; },
+                   [](Scene s) {
+                       s.reservoir->model = ReservoirModel::added_mass;
+                       return s;
+                   }},
+    };
+    return models;
+}
+
+const OtherModel* find_other_model(std::string_view level_word)
+{
+    for (const OtherModel& other : other_models())
+        if (!level_word.empty() && other.level_word == level_word) return &other;
+    return nullptr;
 }
 
 } // namespace damslip

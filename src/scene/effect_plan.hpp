@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -119,6 +120,19 @@ struct EffectRow {
 /// All rows; the place of a row is the value of its Effect.
 std::span<const EffectRow> effect_rows();
 const EffectRow& effect_row(Effect effect);
+
+/// Another model of the same dam. The model spread of `fe` and `assess` runs those that a scene does not have already, and
+/// `accuracy` those with a word on a model level of its own; where it is the scene without an effect, the row of that effect
+/// has `explain --ablate` run it, too.
+struct OtherModel {
+    const char* name;               ///< as printed: "massless rock"
+    std::string_view level_word;    ///< in the name of a model level: "rock=massless"; empty: no word of its own
+    std::optional<Effect> without;  ///< the effect that it leaves out; none: it adds one
+    bool (*concerns)(const Scene&); ///< is it another than the scene's?
+    Scene (*change)(Scene);
+};
+std::span<const OtherModel> other_models();
+const OtherModel* find_other_model(std::string_view level_word); ///< null: none has that word
 
 /// EffectRow::decide for a scene of a rock wedge. @pre scene.wedge
 Decision decide_of_wedge(Effect effect, const Scene& scene);

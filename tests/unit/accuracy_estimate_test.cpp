@@ -82,7 +82,7 @@ TrueSlip true_slip(const KnownScene& known, const ModelLevelRunner& runner)
 {
     const auto slip = [&](const ModelLevel& model_level) {
         const ModelLevelResult result = runner.run(model_level);
-        return result.done() ? result.slip.front() : std::nan("");
+        return result.done() ? result.slip(0) : std::nan("");
     };
     if (known.meshes) return {slip(fe_model_level(known.water, 4, 0.125)), 0.0};
     const double finest = slip(fe_model_level(known.water, 8, 1.0));
@@ -123,7 +123,7 @@ TEST_P(AccuracyEstimate, IsWithinAFactorOfTwoOfTheError)
         if (r.model_level.family != ModelLevelFamily::finite_elements || !r.model_level.plain()) continue;
         SCOPED_TRACE(model_level_id(r.model_level));
         ASSERT_TRUE(r.done()) << r.remark;
-        const double error = std::abs(r.slip.front() - truth.value), estimate = judgement.model_levels[i].error.value();
+        const double error = std::abs(r.slip(0) - truth.value), estimate = judgement.model_levels[i].error.value();
         if (error < std::max(1e-3 * std::abs(truth.value), truth.scatter)) continue;
         EXPECT_GT(estimate, 0.5 * error);
         EXPECT_LT(estimate, 2.0 * error);
@@ -163,9 +163,9 @@ TEST(AccuracyRun, TheNamedModelLevelRunAgainIsWithinTheTolerance)
         if (!j.choice) continue;
         ++named;
         const ModelLevelResult again = runner.run(*parse_model_level(model_level_id(results[*j.choice].model_level)));
-        EXPECT_EQ(again.slip, results[*j.choice].slip);
-        const double top = results[*j.top].slip.front();
-        EXPECT_LE(std::abs(again.slip.front() - top), tolerance * std::abs(top));
+        EXPECT_EQ(again.slip(0), results[*j.choice].slip(0));
+        const double top = results[*j.top].slip(0);
+        EXPECT_LE(std::abs(again.slip(0) - top), tolerance * std::abs(top));
         EXPECT_LE(results[*j.choice].seconds, before);
         before = results[*j.choice].seconds;
     }

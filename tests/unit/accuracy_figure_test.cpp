@@ -12,8 +12,8 @@ ModelLevelResult result(const std::string& id, double slip, double seconds)
 {
     ModelLevelResult r;
     r.model_level = parse_model_level(id).value();
-    r.outcome = ModelLevelOutcome::done;
-    r.slip = {slip};
+    r.status = Status::at_rest;
+    r.motions.emplace_back().slip = slip;
     r.seconds = seconds;
     r.repeats = 1;
     return r;
@@ -27,8 +27,9 @@ std::vector<ModelLevelResult> results()
                                 result("fe-dry:dt/8", 0.050125, 0.8)};
     all.push_back(result("fe-dry:dt/4,stick=1e+10", 0.06, 0.9)); // slower and worse
     all.push_back(result("fe-dry:dt/8,h/2", 0.05, 9.0));
-    all.back().outcome = ModelLevelOutcome::skipped;
-    all.back().slip.clear();
+    all.back().skipped = true;
+    all.back().status = Status::not_resolved;
+    all.back().motions.clear();
     all.back().remark = "about 9 s, 3 s of the budget left";
     return all;
 }

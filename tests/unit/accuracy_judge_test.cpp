@@ -1,11 +1,15 @@
 // The hierarchy's judgement: orders, limits, errors, front and choice from results that are made up, so that each is known.
 #include "analysis/accuracy/accuracy.hpp"
 #include "analysis/accuracy/hierarchy.hpp"
+#include "scene/read.hpp"
+#include "scene/rock_mass.hpp"
+#include "source_dir.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <random>
 
 namespace {
@@ -24,22 +28,30 @@ double slip_of(const ModelLevel& r)
     return slip;
 }
 
+MotionOutcome at_rest(double slip)
+{
+    MotionOutcome outcome;
+    outcome.status = Status::at_rest;
+    outcome.slip = slip;
+    return outcome;
+}
+
 /// Seconds go with steps, and with the number of elements.
 ModelLevelResult made_up(const ModelLevel& model_level)
 {
     ModelLevelResult r;
     r.model_level = model_level;
-    r.outcome = ModelLevelOutcome::done;
+    r.status = Status::at_rest;
     r.repeats = 1;
     if (model_level.family == ModelLevelFamily::finite_elements) {
-        r.slip = {slip_of(model_level)};
+        r.motions = {at_rest(slip_of(model_level))};
         r.set_up_seconds = 0.1;
         r.seconds = 0.1 + 0.2 * std::exp2(model_level.halvings) * std::pow(model_level.mesh, -2.0);
         if (model_level.modes) r.seconds *= 0.2;
         if (!model_level.element.empty()) r.seconds *= 3.5;
         r.time_step = 0.01 / std::exp2(model_level.halvings);
     } else {
-        r.slip = {model_level.family == ModelLevelFamily::rigid ? 0.03 : 0.02};
+        r.motions = {at_rest(model_level.family == ModelLevelFamily::rigid ? 0.03 : 0.02)};
         r.seconds = 0.001;
     }
     return r;
@@ -102,6 +114,25 @@ TEST(AccuracyConvergence, PrintsTheOrderItSeesAndReliesOnOneBetweenOneAndTwo)
     EXPECT_FALSE(observed_order(still));
     EXPECT_EQ(extrapolated(still)->correction, 0.0);
     EXPECT_FALSE(extrapolated(one));
+}
+
+// One table: what the model spread runs beside a scene is a model level, too, and then no other model any more.
+TEST(AccuracyModelLevel, OtherModelsAreLevelsByTheirWords)
+{
+    Scene scene = read_scene(std::filesystem::path(source_dir()) / "examples/reference_dam.toml");
+    ASSERT_TRUE(scene.foundation);
+    for (const Scene& start : {with_massless_rock(scene), with_radiating_rock(scene)})
+        for (const OtherModel& other : other_models()) {
+            if (other.level_word.empty() || !other.concerns(start)) continue;
+            const auto level = parse_model_level("fe-added-mass:dt," + std::string(other.level_word));
+            ASSERT_TRUE(level) << other.level_word;
+            EXPECT_EQ(model_level_id(*level), "fe-added-mass:dt," + std::string(other.level_word));
+            EXPECT_NE(rock_kind(scene_of(start, *level)), rock_kind(start)) << other.name;
+            EXPECT_FALSE(other.concerns(scene_of(start, *level))) << other.name;
+        }
+    EXPECT_FALSE(parse_model_level("fe-added-mass:dt,rock=other"));
+    EXPECT_EQ(scene_of(scene, *parse_model_level("fe-acoustic:dt")).reservoir->model, ReservoirModel::acoustic);
+    EXPECT_EQ(scene_of(scene, *parse_model_level("fe-hydrostatic:dt")).reservoir->model, ReservoirModel::hydrostatic);
 }
 
 TEST(AccuracyModelLevel, NamesReadBack)
@@ -178,7 +209,7 @@ TEST(AccuracyJudge, EstimatesErrorsOfStepMeshPenaltyAndModes)
     for (std::size_t i = 0; i < results.size(); ++i) {
         const ModelLevel& r = results[i].model_level;
         if (r.family != ModelLevelFamily::finite_elements) continue;
-        const double truth = std::abs(results[i].slip[0] - (r.water == ModelLevelWater::added_mass ? 0.8 : 1.0) * exact);
+        const double truth = std::abs(results[i].slip(0) - (r.water == ModelLevelWater::added_mass ? 0.8 : 1.0) * exact);
         ASSERT_TRUE(j.model_levels[i].error);
         EXPECT_GT(*j.model_levels[i].error, 0.5 * truth) << model_level_id(r);
         EXPECT_LT(*j.model_levels[i].error, 2.0 * truth) << model_level_id(r);
@@ -210,7 +241,7 @@ TEST(AccuracyJudge, TellsModelsApartFromDiscretisation)
 TEST(AccuracyJudge, DeviationContainsWhatTheTopLeavesOpenAndTheWorstRecordCounts)
 {
     std::vector<ModelLevelResult> results = levels_run();
-    for (ModelLevelResult& r : results) r.slip.push_back(2.0 * r.slip[0] + (r.model_level.modes ? 0.01 : 0.0));
+    for (ModelLevelResult& r : results) r.motions.push_back(at_rest(2.0 * r.slip(0) + (r.model_level.modes ? 0.01 : 0.0)));
     const Judgement j = judge_model_levels(results, 0.02);
     EXPECT_EQ(j.motion, 1u); // the larger slip
     EXPECT_GT(*j.top_error, 0.0);
@@ -219,18 +250,18 @@ TEST(AccuracyJudge, DeviationContainsWhatTheTopLeavesOpenAndTheWorstRecordCounts
         *std::find_if(results.begin(), results.end(), [](const ModelLevelResult& r) { return r.model_level.modes.has_value(); });
     const ModelLevelResult& top = results[*j.top];
     EXPECT_GE(*verdict(results, j, model_level_id(reduced.model_level)).deviation,
-              std::abs(reduced.slip[1] - top.slip[1]) / top.slip[1]);
+              std::abs(reduced.slip(1) - top.slip(1)) / top.slip(1));
 }
 
 TEST(AccuracyJudge, NamesNoneWhereAFinerModelLevelHasNoSlip)
 {
     std::vector<ModelLevelResult> results = levels_run();
     ASSERT_TRUE(judge_model_levels(results, 0.1).choice);
-    results.back().outcome = ModelLevelOutcome::failed;
+    results.back().status = Status::not_resolved;
     const Judgement j = judge_model_levels(results, 0.1);
     EXPECT_FALSE(j.choice);
     EXPECT_EQ(*j.contradiction, results.size() - 1);
-    results.back().outcome = ModelLevelOutcome::skipped; // for want of seconds: the next finest is the top
+    results.back().skipped = true; // for want of seconds: the next finest is the top
     EXPECT_TRUE(judge_model_levels(results, 0.1).choice);
 }
 
@@ -271,16 +302,16 @@ TEST(AccuracyRuns, ListsWhatExceedsTheBudgetAndKeepsWhatFailed)
     options.budget = 2.0; // made-up model levels take no time, but say what they would
     const std::vector<ModelLevelResult> results = levels_run(options);
     const auto skipped = std::count_if(results.begin(), results.end(),
-                                       [](const ModelLevelResult& r) { return r.outcome == ModelLevelOutcome::skipped; });
+                                       [](const ModelLevelResult& r) { return r.skipped; });
     EXPECT_GT(skipped, 0);
     for (const ModelLevelResult& r : results)
-        EXPECT_TRUE(r.outcome != ModelLevelOutcome::skipped || r.seconds >= 1.5) << model_level_id(r.model_level);
+        EXPECT_TRUE(!r.skipped || r.seconds >= 1.5) << model_level_id(r.model_level);
     HierarchyCalls failing;
     failing.run = [](const ModelLevel& model_level) {
         ModelLevelResult r = made_up(model_level);
         if (model_level.water == ModelLevelWater::acoustic && model_level.family == ModelLevelFamily::finite_elements) {
-            r.outcome = ModelLevelOutcome::refused;
-            r.slip.clear();
+            r.status = Status::refused;
+            r.motions.clear();
         }
         return r;
     };
@@ -295,7 +326,7 @@ TEST(AccuracyRuns, AnInterruptKeepsWhatIsFinishedAndDropsTheModelLevelUnderWay)
     HierarchyCalls calls;
     calls.run = [&](const ModelLevel& model_level) {
         ModelLevelResult r = made_up(model_level);
-        if (++runs == 20) r.outcome = ModelLevelOutcome::stopped;
+        if (++runs == 20) r.status = Status::interrupted;
         return r;
     };
     std::size_t told = 0;

@@ -32,6 +32,16 @@ ContactRun fe_run_of(const std::string& record, int polarity, double slip_mm)
     return r;
 }
 
+MotionOutcome finite_elements(const std::string& what, double slip_mm, std::optional<Effect> without = {})
+{
+    MotionOutcome outcome;
+    outcome.what = what;
+    outcome.status = Status::at_rest;
+    outcome.largest_slip = slip_mm * one_mm;
+    outcome.without = without;
+    return outcome;
+}
+
 /// The reference dam, whose rigid block slides 2.559 mm, without finite elements.
 Assessment screened(double allowable_mm)
 {
@@ -51,9 +61,8 @@ Assessment with_finite_elements(double allowable_mm)
     a.fe = a.ready;
     const std::string record = a.ready.records().front().files.name;
     a.runs = {fe_run_of(record, 1, 23.0), fe_run_of(record, -1, 19.0)};
-    a.spread = {{"other polarity", true, Status::at_rest, 19.0 * one_mm},
-                {"massless rock", true, Status::at_rest, 39.0 * one_mm},
-                {"added mass", true, Status::at_rest, 24.0 * one_mm}};
+    a.spread.runs = {finite_elements("other polarity", 19.0), finite_elements("massless rock", 39.0),
+                     finite_elements("added mass", 24.0)};
     return a;
 }
 
@@ -65,7 +74,7 @@ TEST(Assess, RangeHoldsErrorPolarityAndWaterButNotMasslessRock)
     EXPECT_DOUBLE_EQ(a.recommended->slip, 23.0 * one_mm);
     EXPECT_DOUBLE_EQ(a.recommended->low, 19.0 * one_mm);
     EXPECT_DOUBLE_EQ(a.recommended->high, 24.0 * one_mm);
-    a.spread.clear();
+    a.spread.runs.clear();
     judge_assessment(a);
     EXPECT_NEAR(a.recommended->low, 22.5 * one_mm, 1e-9);
     EXPECT_NEAR(a.recommended->high, 23.5 * one_mm, 1e-9);
@@ -124,7 +133,7 @@ TEST(Assess, PolarityThatDidNotFitTakesThePassBack)
 {
     Assessment a = with_finite_elements(50);
     a.runs.pop_back();
-    a.spread.clear();
+    a.spread.runs.clear();
     judge_assessment(a);
     EXPECT_EQ(a.verdict, damslip::Verdict::undecided);
     EXPECT_NE(a.verdict_reason.find("polarity"), std::string::npos);
@@ -133,7 +142,7 @@ TEST(Assess, PolarityThatDidNotFitTakesThePassBack)
 TEST(Assess, RangeOfARunWithoutErrorHoldsTheOtherPolarityWithIts)
 {
     Assessment a = with_finite_elements(50);
-    a.spread.clear();
+    a.spread.runs.clear();
     a.runs[0].mesh.check = MeshCheck::no_answer; // 23 mm, on a coarser mesh
     judge_assessment(a);
     EXPECT_FALSE(a.recommended->error_known);
@@ -173,9 +182,8 @@ TEST(Assess, LevelsThreeTimesApartNameAnAssumptionInWhichTheyDiffer)
 {
     Assessment a = with_finite_elements(50);
     // Without uplift the number would be nearest to the block's 2.56 mm; but the block has the uplift, too.
-    a.assumptions = {{"without uplift", Status::at_rest, 2.5 * one_mm, Effect::uplift, false},
-                     {"rigid dam on rigid rock", Status::at_rest, 3.7 * one_mm, {}, true},
-                     {"without separation", Status::at_rest, 21.0 * one_mm, Effect::separation, false}};
+    a.assumptions = {finite_elements("without uplift", 2.5, Effect::uplift), finite_elements(rigid_dam, 3.7),
+                     finite_elements("without separation", 21.0, Effect::separation)};
     judge_assessment(a);
     const auto rigid = std::find_if(a.disagreements.begin(), a.disagreements.end(),
                                     [](const Disagreement& d) { return d.lower.level == SlipLevel::rigid_block; });

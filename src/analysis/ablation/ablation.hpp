@@ -1,13 +1,7 @@
 #pragma once
 
-#include "analysis/prepare/ready.hpp"
-#include "core/status.hpp"
-#include "core/watch.hpp"
-#include "scene/effect_plan.hpp"
-#include "scene/scene.hpp"
+#include "analysis/fe/variants.hpp"
 
-#include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,27 +39,6 @@ AblationPlan make_ablations(const Scene& scene, Method method, const std::vector
 
 /// The runs of an ablation, as data.
 
-/// One scene under one motion. Empty: the run does not give it.
-struct MotionOutcome {
-    Status status = Status::interrupted;
-    std::string message;                   ///< one sentence where there is no slip to compare
-    std::optional<double> slip;            ///< final, positive downstream, of runs that can be compared [m]
-    std::optional<double> slip_other_step; ///< the same with AblationStep::other [m]
-    std::optional<double> crest;           ///< largest |crest - base|, horizontal, since the static state [m]
-    std::vector<double> lift_slips;        ///< of the lift joints, final, from bottom to top [m]
-    bool still_sliding = false;            ///< when the run-out ended: the slip is a lower bound
-    double seconds = 0.0; ///< of the processor for this run at AblationStep::halvings, without the set-up
-};
-
-/// One scene under all motions.
-struct SceneRuns {
-    std::vector<MotionOutcome> motions;       ///< as AblationRuns::motions
-    std::optional<double> yield_acceleration; ///< of the rigid block [m/s^2]
-    std::optional<double> critical_friction;  ///< least mu of static equilibrium [-]
-    std::int64_t unknowns = 0;                ///< of the FE model, water included; 0: rigid block
-    double set_up_seconds = 0.0;              ///< of the processor
-};
-
 /// The one time step of all FE runs of an ablation, so that changes are not those of the step.
 struct AblationStep {
     int halvings = 0;        ///< steps dt / 2^k of every run
@@ -80,9 +53,10 @@ struct AblationStep {
 double difference_error(const AblationStep& step, double at_step, double at_other);
 
 struct AblationRuns {
-    std::vector<MotionName> motions;  ///< that every scene is run with
-    std::vector<SceneRuns> scenes;    ///< the full one, each removal, the simplest if there is one
-    std::optional<AblationStep> step; ///< of FE runs
+    std::vector<MotionName> motions;     ///< that every scene is run with
+    std::vector<VariantRuns> scenes;     ///< the full one, each removal, the simplest if there is one
+    std::vector<VariantRuns> other_step; ///< the same of FE runs with AblationStep::other
+    std::optional<AblationStep> step;    ///< of FE runs
     int jobs = 1;
 };
 
@@ -93,12 +67,5 @@ AblationRuns run_ablations(const AblationPlan& plan, const Records& records, int
 /// Base profile of uplift.model = "seepage" as uplift.points_m, p over that of the heel; empty: another model, or no
 /// head at the heel. @throws InputError, NotConverged as the seepage
 std::vector<Point> seepage_points(const Scene& scene);
-
-SceneRuns run_rigid(const Ready& ready, const Watch& watch);
-/// @param fraction  called with how much of the scene's runs is done, 0 ... 1
-SceneRuns run_fe(const Ready& ready, const AblationStep& step, const Watch& watch,
-                 const std::function<void(double fraction)>& done);
-/// The step of the full scene at its own accuracy, dt/8 at least; or that of time.substeps.
-AblationStep choose_step(const Ready& full, const Watch& watch);
 
 } // namespace damslip

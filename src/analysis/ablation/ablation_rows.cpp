@@ -9,30 +9,35 @@ namespace {
 
 std::string remark_of(const AblationRow& row, const MotionOutcome& full, const MotionOutcome& own)
 {
-    if (!own.message.empty()) return own.message;
+    if (!own.slip && !own.message.empty()) return own.reason();
     if (!full.slip && own.slip) return "the full scene has no slip to compare with";
     if (row.still_sliding) return "still sliding after the run-out: a lower bound";
     if (row.within_step_error) return "within the step error";
     return "";
 }
 
-AblationRow row_of(const std::string& name, const std::optional<AblationStep>& step, const MotionOutcome& full,
-                   const MotionOutcome& own, bool is_full)
+/// The slip with AblationStep::other; empty where the one with AblationStep::halvings is.
+std::optional<double> slip_at_other_step(const AblationRuns& runs, std::size_t scene, std::size_t motion)
 {
-    AblationRow row;
-    row.name = name;
-    row.status = own.status;
+    const bool both = runs.scenes[scene].motions[motion].slip && motion < runs.other_step[scene].motions.size();
+    return both ? runs.other_step[scene].motions[motion].slip : std::nullopt;
+}
+
+AblationRow row_of(const std::string& name, const AblationRuns& runs, std::size_t scene, std::size_t motion)
+{
+    const MotionOutcome &full = runs.scenes.front().motions[motion], &own = runs.scenes[scene].motions[motion];
+    const bool is_full = scene == 0;
+    AblationRow row{runs.motions[motion], name, word(own.status)};
     row.still_sliding = own.still_sliding;
     row.slip = change_from(full.slip, own.slip);
     row.crest = change_from(full.crest, own.crest);
     for (std::size_t k = 0; k < full.lift_slips.size(); ++k)
         row.lifts.push_back(change_from(full.lift_slips[k],
                                         k < own.lift_slips.size() ? std::optional(own.lift_slips[k]) : std::nullopt));
-    if (step && own.slip_other_step) {
-        row.slip_error = difference_error(*step, *own.slip, *own.slip_other_step);
-        if (full.slip_other_step) {
-            row.change_error =
-                difference_error(*step, *own.slip - *full.slip, *own.slip_other_step - *full.slip_other_step);
+    if (const std::optional<double> other = slip_at_other_step(runs, scene, motion)) {
+        row.slip_error = difference_error(*runs.step, *own.slip, *other);
+        if (const std::optional<double> full_other = slip_at_other_step(runs, 0, motion)) {
+            row.change_error = difference_error(*runs.step, *own.slip - *full.slip, *other - *full_other);
             row.within_step_error =
                 !is_full && *row.slip.change != 0.0 && std::abs(*row.slip.change) <= *row.change_error;
         }
@@ -71,10 +76,8 @@ std::vector<std::string> scene_names(const AblationPlan& plan)
 std::vector<AblationRow> rows_of(const AblationPlan& plan, const AblationRuns& runs, std::size_t motion)
 {
     const std::vector<std::string> names = scene_names(plan);
-    const MotionOutcome& full = runs.scenes.front().motions[motion];
     std::vector<AblationRow> rows;
-    for (std::size_t i = 0; i < runs.scenes.size(); ++i)
-        rows.push_back(row_of(names[i], runs.step, full, runs.scenes[i].motions[motion], i == 0));
+    for (std::size_t i = 0; i < runs.scenes.size(); ++i) rows.push_back(row_of(names[i], runs, i, motion));
     return rows;
 }
 
@@ -90,20 +93,13 @@ std::optional<double> sum_of_changes(const AblationPlan& plan, const std::vector
     return sum;
 }
 
-SceneSeconds seconds_of(const SceneRuns& scene)
+std::optional<double> saved_seconds(const VariantRuns& full, const VariantRuns& own)
 {
-    SceneSeconds seconds{scene.set_up_seconds, 0.0};
-    for (const MotionOutcome& r : scene.motions) seconds.runs += r.seconds;
-    return seconds;
-}
-
-std::optional<double> saved_seconds(const SceneRuns& full, const SceneRuns& own)
-{
-    const auto whole = [](const SceneRuns& s) {
+    const auto whole = [](const VariantRuns& s) {
         return std::all_of(s.motions.begin(), s.motions.end(), [](const MotionOutcome& r) { return r.slip; });
     };
     if (!whole(full) || !whole(own)) return std::nullopt;
-    return seconds_of(full).sum() - seconds_of(own).sum();
+    return full.all_seconds() - own.all_seconds();
 }
 
 } // namespace damslip

@@ -16,17 +16,18 @@ struct Change {
 };
 Change change_from(const std::optional<double>& full, const std::optional<double>& value);
 
-/// One scene under one motion.
+/// One scene under one motion, or the sum of the changes.
 struct AblationRow {
-    std::string name; ///< of the effect that is removed; "all effects", "all removed"
-    Status status = Status::interrupted;
-    Change slip;                                    ///< final [m]
-    std::optional<double> slip_error, change_error; ///< of the time step, FE runs [m]
-    Change crest;                                   ///< [m], FE runs
-    std::vector<Change> lifts;                      ///< final slip of each lift joint of the full scene [m]
-    bool within_step_error = false;                 ///< the change is not larger than its error, and not zero
-    bool still_sliding = false;                     ///< when the run-out ended: slip and change are lower bounds
-    std::string remark;
+    MotionName motion;
+    std::string name;   ///< of the effect that is removed; "(all effects)", "(all removed)", "(sum of changes)"
+    std::string status; ///< of the list, or "sum"
+    Change slip = {};                                         ///< final [m]
+    std::optional<double> slip_error = {}, change_error = {}; ///< of the time step, FE runs [m]
+    Change crest = {};                                        ///< [m], FE runs
+    std::vector<Change> lifts = {};                           ///< final slip of each lift joint of the full scene [m]
+    bool within_step_error = false;                           ///< the change is not larger than its error, and not zero
+    bool still_sliding = false; ///< when the run-out ended: slip and change are lower bounds
+    std::string remark = {};
 };
 
 inline const char* const full_name = "(all effects)";
@@ -42,14 +43,7 @@ std::vector<AblationRow> rows_of(const AblationPlan& plan, const AblationRuns& r
 /// lower bound only [m].
 std::optional<double> sum_of_changes(const AblationPlan& plan, const std::vector<AblationRow>& rows);
 
-/// Seconds of a scene's set-up and of its runs over all motions.
-struct SceneSeconds {
-    double set_up = 0.0, runs = 0.0;
-    double sum() const { return set_up + runs; }
-};
-SceneSeconds seconds_of(const SceneRuns& scene);
-
 /// Seconds that a scene takes less than the full one; empty where one of them has not run to the end of all motions [s].
-std::optional<double> saved_seconds(const SceneRuns& full, const SceneRuns& own);
+std::optional<double> saved_seconds(const VariantRuns& full, const VariantRuns& own);
 
 } // namespace damslip

@@ -4,7 +4,6 @@
 #include "analysis/fe/mesh_error.hpp"
 #include "core/watch.hpp"
 #include "scene/joint_bond.hpp"
-#include "scene/rock_mass.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -38,28 +37,9 @@ void set_element(std::string_view word, Scene& scene)
 
 void set_water(ModelLevelWater water, Scene& scene)
 {
-    if (!scene.reservoir) return;
-    switch (water) {
-    case ModelLevelWater::dry:
-        break;
-    case ModelLevelWater::hydrostatic:
-        scene.reservoir->model = ReservoirModel::hydrostatic;
-        break;
-    case ModelLevelWater::added_mass:
-        scene.reservoir->model = ReservoirModel::added_mass;
-        break;
-    case ModelLevelWater::acoustic:
-        scene.reservoir->model = ReservoirModel::acoustic;
-        break;
-    }
-}
-
-void set_rock(const ModelLevel& model_level, Scene& scene)
-{
-    if (!scene.foundation) return;
-    if (model_level.rock == ModelLevelRock::massless) scene = with_massless_rock(scene);
-    if (model_level.rock == ModelLevelRock::radiating) scene = with_radiating_rock(scene);
-    scene.foundation->wave_box *= model_level.wave_box;
+    using enum ReservoirModel;
+    constexpr ReservoirModel models[] = {hydrostatic, added_mass, acoustic}; // of ModelLevelWater after `dry`
+    if (scene.reservoir && water != ModelLevelWater::dry) scene.reservoir->model = models[static_cast<std::size_t>(water) - 1];
 }
 
 } // namespace
@@ -85,7 +65,8 @@ Scene scene_of(const Scene& given, const ModelLevel& model_level)
         scene.contact.enforcement = ContactEnforcement::penalty;
         scene.contact.tangential_stiffness = model_level.tangential_stiffness;
     }
-    set_rock(model_level, scene);
+    if (const OtherModel* other = find_other_model(model_level.other_model)) scene = other->change(scene);
+    if (scene.foundation) scene.foundation->wave_box *= model_level.wave_box;
     if (model_level.alpha) {
         scene.time.scheme = TimeScheme::hht;
         scene.time.alpha = *model_level.alpha;
@@ -123,7 +104,7 @@ std::optional<ModelLimit> limit_of(const std::vector<ModelLevelResult>& results,
         limit.open.push_back(0.5 * std::abs(step->correction));
         if (!cross.corner) continue;
         const auto mesh = extrapolated(slips_of(cross.column, motion));
-        limit.slip.back() += mesh->value - cross.corner->slip[motion];
+        limit.slip.back() += mesh->value - cross.corner->slip(motion);
         limit.open.back() += 0.5 * std::abs(mesh->correction);
         limit.mesh_known = true;
     }
@@ -143,7 +124,7 @@ std::optional<double> order_of_variants(const std::vector<ModelLevelResult>& res
         plain.modes.reset();
         plain.tangential_stiffness.reset();
         for (const ModelLevelResult& p : results)
-            if (p.done() && p.model_level == plain) errors.emplace_back(*size(r.model_level), r.slip[motion] - p.slip[motion]);
+            if (p.done() && p.model_level == plain) errors.emplace_back(*size(r.model_level), r.slip(motion) - p.slip(motion));
     }
     std::sort(errors.begin(), errors.end());
     std::vector<double> falling;
@@ -181,22 +162,22 @@ std::optional<double> error_of(const ModelLevelResult& r, const ModelLimit* limi
     if (r.model_level.family == ModelLevelFamily::rigid && r.model_level.scheme != RigidScheme::slammer)
         return 0.0; // events located exactly
     if (!limit) return std::nullopt;
-    return std::max(std::abs(r.slip[motion] - limit->slip[motion]), limit->open[motion]);
+    return std::max(std::abs(r.slip(motion) - limit->slip[motion]), limit->open[motion]);
 }
 
 void judge_model_level(const ModelLevelResult& r, const ModelLevelResult& top, const ModelLimit* limit, const ModelLimit* top_limit,
                 std::size_t shown, ModelLevelVerdict& verdict)
 {
     verdict.error = error_of(r, limit, shown);
-    const double own = limit ? limit->slip[shown] : r.slip[shown];
-    verdict.model_difference = own - (top_limit ? top_limit->slip[shown] : top.slip[shown]);
-    verdict.off_top = r.slip[shown] - top.slip[shown];
+    const double own = limit ? limit->slip[shown] : r.slip(shown);
+    verdict.model_difference = own - (top_limit ? top_limit->slip[shown] : top.slip(shown));
+    verdict.off_top = r.slip(shown) - top.slip(shown);
     double deviation = 0.0;
-    for (std::size_t motion = 0; motion < r.slip.size(); ++motion) {
+    for (std::size_t motion = 0; motion < r.motions.size(); ++motion) {
         const auto open = error_of(top, top_limit, motion);
         if (!open) return;
-        const double size = std::max(std::abs(top.slip[motion]), least_slip);
-        deviation = std::max(deviation, (std::abs(r.slip[motion] - top.slip[motion]) + *open) / size);
+        const double size = std::max(std::abs(top.slip(motion)), least_slip);
+        deviation = std::max(deviation, (std::abs(r.slip(motion) - top.slip(motion)) + *open) / size);
     }
     verdict.deviation = deviation;
 }
@@ -208,8 +189,8 @@ void add_rigid_limits(const std::vector<ModelLevelResult>& results, std::vector<
         if (r.done() && r.model_level.family == ModelLevelFamily::rigid && r.model_level.scheme != RigidScheme::slammer) {
             ModelLimit limit;
             limit.model = model_of(r.model_level);
-            limit.slip = r.slip;
-            limit.open.assign(r.slip.size(), 0.0);
+            for (const MotionOutcome& o : r.motions) limit.slip.push_back(*o.slip);
+            limit.open.assign(r.motions.size(), 0.0);
             models.push_back(std::move(limit));
         }
 }
@@ -223,11 +204,11 @@ Judgement judge_model_levels(const std::vector<ModelLevelResult>& results, doubl
     j.top = top_model_level(results);
     if (!j.top) return j;
     const ModelLevelResult& top = results[*j.top];
-    for (std::size_t motion = 0; motion < top.slip.size(); ++motion)
-        if (std::abs(top.slip[motion]) > std::abs(top.slip[j.motion])) j.motion = motion;
+    for (std::size_t motion = 0; motion < top.motions.size(); ++motion)
+        if (std::abs(top.slip(motion)) > std::abs(top.slip(j.motion))) j.motion = motion;
     add_rigid_limits(results, j.models);
     for (const ModelLevelWater water : {ModelLevelWater::dry, ModelLevelWater::hydrostatic, ModelLevelWater::added_mass, ModelLevelWater::acoustic})
-        if (auto limit = limit_of(results, water, top.slip.size())) {
+        if (auto limit = limit_of(results, water, top.motions.size())) {
             add_orders(results, water, j.motion, *limit);
             j.models.push_back(std::move(*limit));
         }
@@ -242,7 +223,7 @@ Judgement judge_model_levels(const std::vector<ModelLevelResult>& results, doubl
     }
     j.top_error = j.model_levels[*j.top].deviation;
     for (std::size_t i = 0; i < results.size(); ++i)
-        if (results[i].outcome == ModelLevelOutcome::failed && results[i].model_level.plain() && below(top.model_level, results[i].model_level))
+        if (results[i].ran() && !results[i].done() && results[i].model_level.plain() && below(top.model_level, results[i].model_level))
             j.contradiction = i;
     if (!j.contradiction) j.choice = cheapest_within(seconds, deviation, tolerance);
     const std::vector<bool> front = pareto_front(seconds, deviation);

@@ -36,7 +36,7 @@ bool of_model(const ModelLevelResult& r, ModelLevelWater water)
 bool settled(const std::vector<const ModelLevelResult*>& row, double tolerance,
              const std::vector<const ModelLevelResult*>& elsewhere = {})
 {
-    for (std::size_t motion = 0; motion < row.back()->slip.size(); ++motion) {
+    for (std::size_t motion = 0; motion < row.back()->motions.size(); ++motion) {
         const std::vector<double> slips = slips_of(row, motion);
         const std::optional<Limit> limit = extrapolated(slips, 2.0, observed_order(slips_of(elsewhere, motion)));
         if (!limit || !limit->plausible() ||
@@ -73,16 +73,8 @@ void add_variants(const HierarchyFacts& facts, ModelLevelWater water, int halvin
         for (const int modes : reduced_modes) variant([&](ModelLevel& r) { r.modes = modes; });
     for (const double stiffness : penalties) variant([&](ModelLevel& r) { r.tangential_stiffness = stiffness; });
     for (const double alpha : facts.alphas) variant([&](ModelLevel& r) { r.alpha = alpha; });
-    if (facts.rock == RockKind::radiating)
+    if (facts.radiates)
         for (const double size : wave_boxes) variant([&](ModelLevel& r) { r.wave_box = size; });
-}
-
-/// What the rock does: the other of massless and radiating rock beside the scene's.
-void add_rock(const HierarchyFacts& facts, ModelLevelWater water, int halvings, std::vector<ModelLevel>& model_levels)
-{
-    if (facts.rock != RockKind::radiating && facts.rock != RockKind::massless) return;
-    model_levels.push_back(fe_model_level(water, halvings));
-    model_levels.back().rock = facts.rock == RockKind::radiating ? ModelLevelRock::massless : ModelLevelRock::radiating;
 }
 
 /// Quadratic elements of the scene's size and, where it leaves enough of them, of twice that: about as many unknowns as
@@ -139,7 +131,10 @@ std::vector<ModelLevel> hierarchy(const HierarchyFacts& facts, const HierarchyOp
         for (double mesh = facts.coarsest; mesh > 1.0; mesh /= 2.0) model_levels.push_back(fe_model_level(water, row.last - 1, mesh));
         if (water == facts.waters.back() && facts.quadratic && options.effort == Effort::full)
             add_elements(facts, water, row.last - 1, model_levels);
-        add_rock(facts, water, row.last - 1, model_levels);
+        for (const std::string& other : facts.other_models) {
+            model_levels.push_back(fe_model_level(water, row.last - 1));
+            model_levels.back().other_model = other;
+        }
         if (water == facts.waters.front() && options.effort == Effort::full)
             add_variants(facts, water, row.last - 1, model_levels);
         else if (water == facts.waters.front() && facts.reducible) {
@@ -233,7 +228,7 @@ std::vector<const ModelLevelResult*> fine_row(const std::vector<ModelLevelResult
 std::vector<double> slips_of(const std::vector<const ModelLevelResult*>& model_levels, std::size_t motion)
 {
     std::vector<double> slips;
-    for (const ModelLevelResult* r : model_levels) slips.push_back(r->slip[motion]);
+    for (const ModelLevelResult* r : model_levels) slips.push_back(r->slip(motion));
     return slips;
 }
 
@@ -286,7 +281,7 @@ ModelLevelResult skipped(const ModelLevel& model_level, double expected, double 
 {
     ModelLevelResult result;
     result.model_level = model_level;
-    result.outcome = ModelLevelOutcome::skipped;
+    result.skipped = true;
     result.seconds = expected;
     result.remark = fmt::format("about {:.3g} s, {:.3g} s of the budget left", expected, std::max(0.0, left));
     return result;
@@ -326,9 +321,9 @@ std::vector<ModelLevelResult> run_hierarchy(const HierarchyFacts& facts, const H
         else {
             if (calls.begins) calls.begins(*model_level);
             ModelLevelResult result = run_repeatedly(*model_level, options.repeats, calls);
-            if (result.outcome == ModelLevelOutcome::stopped) {
+            if (result.status == Status::interrupted) {
                 if (!options.budget || (calls.interrupted && calls.interrupted())) break;
-                result.outcome = ModelLevelOutcome::skipped;
+                result.skipped = true;
                 result.remark = fmt::format("ended after {:.3g} s, when the budget was spent", result.seconds);
             }
             results.push_back(std::move(result));

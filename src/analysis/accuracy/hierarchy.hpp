@@ -1,7 +1,6 @@
 #pragma once
 
 #include "analysis/accuracy/model_level.hpp"
-#include "scene/rock_mass.hpp"
 
 #include <functional>
 #include <vector>
@@ -25,7 +24,8 @@ struct HierarchyFacts {
     bool reducible = false;               ///< the first of them can run on few modes
     std::vector<double> alphas;           ///< of HHT, other than the scene's [-]
     bool own_settings = false;            ///< the scene fixes step or contact law otherwise than the hierarchy
-    RockKind rock = RockKind::rigid;      ///< what the model levels stand on
+    bool radiates = false;                ///< the rock that the model levels stand on
+    std::vector<std::string> other_models; ///< OtherModel::level_word of those that are run beside the scene's
     bool quadratic = false;               ///< the scene's elements are linear: quadratic ones are tried beside them
     double coarsest = 1.0;                ///< largest mesh factor that leaves enough elements on the base: 1, 2, 4
     std::vector<std::string> left_out;    ///< a sentence for each kind of model level that this scene has not

@@ -20,10 +20,9 @@ std::string_view water_model(ModelLevelWater water)
 }
 
 /// Empty for the scene's.
-std::string_view rock_word(ModelLevelRock rock)
+std::string other_model_word(const ModelLevel& model_level)
 {
-    constexpr std::array<std::string_view, 3> words{"", ",rock=massless", ",rock=radiating"};
-    return words[static_cast<std::size_t>(rock)];
+    return model_level.other_model.empty() ? "" : "," + model_level.other_model;
 }
 
 std::string step_word(const ModelLevel& model_level)
@@ -76,8 +75,7 @@ bool apply_word(std::string_view word, ModelLevel& model_level)
     if (const auto modes = number_after(word, "modes="))
         return model_level.modes = static_cast<int>(*modes), *modes >= 2 && *modes <= 1000;
     if (const auto k = number_after(word, "stick=")) return model_level.tangential_stiffness = *k, *k > 0;
-    if (word == "rock=massless") return model_level.rock = ModelLevelRock::massless, true;
-    if (word == "rock=radiating") return model_level.rock = ModelLevelRock::radiating, true;
+    if (find_other_model(word)) return model_level.other_model = word, true;
     if (const auto size = number_after(word, "box=")) return model_level.wave_box = *size, *size >= 0.2 && *size <= 5.0;
     if (const auto a = number_after(word, "alpha=")) return model_level.alpha = *a, *a <= 0 && *a >= -1.0 / 3.0 - 1e-9;
     if (word.ends_with("h") && word.size() > 1) {
@@ -129,7 +127,7 @@ std::string model_level_id(const ModelLevel& model_level)
     if (model_level.modes) id += fmt::format(",modes={}", *model_level.modes);
     if (model_level.tangential_stiffness) id += ",stick=" + shortest(*model_level.tangential_stiffness);
     if (model_level.alpha) id += ",alpha=" + shortest(*model_level.alpha);
-    id += rock_word(model_level.rock);
+    id += other_model_word(model_level);
     if (model_level.wave_box != 1.0) id += ",box=" + shortest(model_level.wave_box);
     return id;
 }
@@ -166,12 +164,14 @@ std::string model_of(const ModelLevel& model_level)
     case ModelLevelFamily::finite_elements:
         break;
     }
-    return fmt::format("{}{}", water_model(model_level.water), rock_word(model_level.rock));
+    return fmt::format("{}{}", water_model(model_level.water), other_model_word(model_level));
 }
 
 double ModelLevelResult::largest_slip() const
 {
-    return *std::max_element(slip.begin(), slip.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+    return *std::max_element(motions.begin(), motions.end(), [](const MotionOutcome& a, const MotionOutcome& b) {
+        return std::abs(*a.slip) < std::abs(*b.slip);
+    })->slip;
 }
 
 std::string_view water_word(ModelLevelWater water)

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "core/status.hpp"
+#include "analysis/fe/variants.hpp"
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,7 +20,6 @@ enum class StepChoice {
     adaptive,     ///< the same, sub-steps spread by their local error
     as_the_scene  ///< step, contact law and all else as the scene says, where it differs from the hierarchy's settings
 };
-enum class ModelLevelRock { as_the_scene, massless, radiating };
 
 struct ModelLevel {
     ModelLevelFamily family = ModelLevelFamily::rigid;
@@ -40,14 +38,14 @@ struct ModelLevel {
     std::optional<int> modes;                   ///< reduced run: elastic modes kept
     std::optional<double> tangential_stiffness; ///< penalty [N/m^3]
     std::optional<double> alpha;                ///< of HHT, in place of the scene's scheme [-]
-    ModelLevelRock rock = ModelLevelRock::as_the_scene;
-    double wave_box = 1.0; ///< of radiating rock: size of its box over the scene's [-]
+    std::string other_model; ///< OtherModel::level_word; empty: the scene's
+    double wave_box = 1.0;   ///< of radiating rock: size of its box over the scene's [-]
 
     /// Neither other elements, modes, penalty nor scheme: a point of the model's own row of steps and column of meshes.
     bool plain() const
     {
-        return element.empty() && !modes && !tangential_stiffness && !alpha && rock == ModelLevelRock::as_the_scene &&
-               wave_box == 1.0 && step == StepChoice::fixed;
+        return element.empty() && !modes && !tangential_stiffness && !alpha && other_model.empty() && wave_box == 1.0 &&
+               step == StepChoice::fixed;
     }
     bool operator==(const ModelLevel&) const = default;
 };
@@ -67,35 +65,22 @@ std::string model_of(const ModelLevel& model_level);
 
 std::string_view water_word(ModelLevelWater water); ///< "added mass"
 
-enum class ModelLevelOutcome {
-    done,    ///< there is a slip
-    failed,  ///< it ran and has no final slip: see status and remark
-    refused, ///< this scene cannot be run so, see the remark
-    skipped, ///< would have exceeded the budget
-    stopped  ///< Ctrl-C: nothing of it counts
-};
-
-/// What a model level gave and what it cost.
-struct ModelLevelResult {
+/// What a model level gave, without motions where it is not done, and what it cost.
+struct ModelLevelResult : VariantRuns {
     ModelLevel model_level;
-    ModelLevelOutcome outcome = ModelLevelOutcome::failed;
-    Status status = Status::not_resolved; ///< of what ran, the first motion that does not come to rest
+    Status status = Status::not_resolved; ///< the first that is not at rest; interrupted: nothing of it counts
+    bool skipped = false;                 ///< would have exceeded the budget
     std::string remark;                   ///< what the status means here, or why there is none
-    std::vector<double> slip;      ///< at the end, of each of motion_names(), positive downstream [m]; `done` only
-    std::vector<double> low, high; ///< 16 and 84 % of a regression [m]; empty: no band
 
     // Over all motions, processor time: what a user pays who runs this model level alone: the scene read, models made, records
-    // run.
-    double seconds = 0.0;        ///< median of the repeats [s]; `skipped`: expected
-    double set_up_seconds = 0.0; ///< of them, before the first motion is run [s]
+    // run. The set-up is what comes before the first motion is run.
+    double seconds = 0.0; ///< median of the repeats [s]; skipped: expected
     int repeats = 0;
-    std::optional<double> bytes;          ///< growth of the resident memory to its peak; none: not measured
-    std::optional<double> time_step;      ///< the smallest used [s]
-    std::optional<std::int64_t> unknowns; ///< of the FE model, the water's included; modes of a reduced run
-    std::optional<std::int64_t> steps;    ///< of all motions, of the pass that counts
-    bool done() const { return outcome == ModelLevelOutcome::done; }
-    double largest_slip() const; ///< with its sign; `done` only [m]
-    bool ran() const { return outcome == ModelLevelOutcome::done || outcome == ModelLevelOutcome::failed; }
+    std::optional<double> bytes; ///< growth of the resident memory to its peak; none: not measured
+    bool done() const { return status == Status::at_rest; } ///< there is a slip
+    double slip(std::size_t motion) const { return *motions[motion].slip; } ///< done only [m]
+    double largest_slip() const; ///< with its sign; done only [m]
+    bool ran() const { return !skipped && status != Status::refused && status != Status::interrupted; }
 };
 
 } // namespace damslip

@@ -2,13 +2,10 @@
 
 #include "analysis/accuracy/accuracy.hpp"
 #include "analysis/fe/mesh_error.hpp"
-#include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/reducible.hpp"
-#include "core/input_error.hpp"
 #include "core/units.hpp"
-#include "core/watch.hpp"
-#include "fe2d/reduction/reduced_run.hpp"
 #include "scene/joint_bond.hpp"
+#include "scene/rock_mass.hpp"
 #include "scene/water.hpp"
 #include "sliding/empirical/regression.hpp"
 
@@ -24,16 +21,11 @@
 
 namespace damslip {
 
-/// Slip by one regression, or by all that are valid together.
-struct RegressionSlip {
-    double median = 0.0;             ///< [m], P(D = 0) counted; of the ensemble the weighted median
-    std::optional<double> low, high; ///< 16 and 84 % [m]; none where no sigma is published
-    std::string remark;              ///< for the ensemble how many
-};
-
+/// Slip by one regression, or by all that are valid together: the median, P(D = 0) counted, or the weighted median, with
+/// 16 and 84 % where a sigma is published; the message is for the ensemble how many.
 /// @param id  of a regression, or "ensemble". Nothing where it is not valid here.
-std::optional<RegressionSlip> regression_slip(const std::string& id, const Ready& ready, const RecordPair& record,
-                                              const RigidModel& model);
+std::optional<MotionOutcome> regression_slip(const std::string& id, const Ready& ready, const RecordPair& record,
+                                             const RigidModel& model);
 
 /// The three regressions with the smallest published scatter among those that are valid for all records, and
 /// "ensemble"; best first. Scatter is chosen by, not closeness to any result. Empty: none is valid, or the block slides
@@ -57,21 +49,6 @@ namespace {
 std::string first_line(const std::string& text)
 {
     return text.substr(0, text.find('\n'));
-}
-
-/// Takes over one motion's run. @returns false where it gives no slip
-bool take(const fe2d::RunResult& run, ModelLevelResult& result)
-{
-    result.steps = result.steps.value_or(0) + run.counts.steps;
-    result.time_step = std::min(result.time_step.value_or(run.dt), run.dt);
-    result.status = run.status;
-    if (run.status == Status::interrupted) result.outcome = ModelLevelOutcome::stopped;
-    if (run.status != Status::at_rest) {
-        result.remark = text_of(run.notes);
-        return false;
-    }
-    result.slip.push_back(run.slip);
-    return true;
 }
 
 /// FE models from poor to rich: what the scene's reservoir.model calls for, and the poorer one below it.
@@ -136,26 +113,21 @@ ModelLevelResult ModelLevelRunner::run(const ModelLevel& model_level) const
     const PeakMemory memory;
     const ProcessorClock clock(ProcessorTimeOf::process);
     try {
-        const Scene scene = scene_of(scene_, model_level);
         if (model_level.family == ModelLevelFamily::regression)
             run_regression(model_level, result);
-        else if (model_level.family == ModelLevelFamily::rigid)
-            run_rigid(scene, result);
         else
-            run_finite_elements(scene, result);
-        if (result.slip.size() == motion_names(scene_, *records_).size()) result.outcome = ModelLevelOutcome::done;
+            run_model(model_level, result);
     } catch (const Interrupted& stop) {
-        result.outcome = ModelLevelOutcome::stopped;
+        result.status = Status::interrupted;
         result.remark = stop.what();
     } catch (const InputError& error) {
-        result.outcome = ModelLevelOutcome::refused;
         result.status = Status::refused;
         result.remark = first_line(error.diagnostics().front().problem);
     } catch (const NotConverged& error) {
         result.status = Status::not_resolved;
         result.remark = first_line(error.diagnostic().problem);
     }
-    if (!result.done()) result.slip = result.low = result.high = {}; // of some motions only
+    if (!result.done()) result.motions.clear(); // of some motions only
     result.seconds = read_seconds_ + clock.seconds();
     result.set_up_seconds += read_seconds_;
     result.bytes = memory.bytes();
@@ -169,80 +141,50 @@ void ModelLevelRunner::run_regression(const ModelLevel& model_level, ModelLevelR
     const Ready ready = prepare(scene_, Method::rigid_block, records_);
     const RigidModel model = ready.rigid_model();
     result.set_up_seconds = clock.seconds();
-    const std::size_t polarities = polarities_of(scene_).size();
+    bool banded = true;
     for (const RecordPair& pair : ready.records()) {
-        const auto slip = regression_slip(model_level.regression, ready, pair, model);
+        const std::optional<MotionOutcome> slip = regression_slip(model_level.regression, ready, pair, model);
         if (!slip) {
             result.status =
                 model.state == sliding::StaticState::at_rest ? Status::refused : sliding::status_of(model.state);
-            if (result.status == Status::refused) result.outcome = ModelLevelOutcome::refused;
             result.remark = "no valid value for record " + pair.files.name;
             return;
         }
         result.status = Status::at_rest;
-        result.slip.insert(result.slip.end(), polarities, slip->median); // regressions know no polarity
-        if (slip->low && slip->high) {
-            result.low.insert(result.low.end(), polarities, *slip->low);
-            result.high.insert(result.high.end(), polarities, *slip->high);
-        }
-        result.remark = slip->remark;
+        result.motions.insert(result.motions.end(), polarities_of(scene_).size(), *slip); // regressions know no polarity
+        result.remark = slip->message;
+        banded = banded && slip->low && slip->high;
     }
-    if (result.low.size() != result.slip.size()) result.low = result.high = {};
+    if (!banded)
+        for (MotionOutcome& motion : result.motions) motion.low = motion.high = std::nullopt;
 }
 
-void ModelLevelRunner::run_rigid(const Scene& given, ModelLevelResult& result) const
+void ModelLevelRunner::run_model(const ModelLevel& model_level, ModelLevelResult& result) const
 {
     const ProcessorClock clock(ProcessorTimeOf::process);
-    const Ready ready = prepare(given, Method::rigid_block, records_);
-    const RigidModel model = ready.rigid_model();
-    result.set_up_seconds = clock.seconds();
-    for (const RecordPair& pair : ready.records())
-        for (const GroundMotion& motion : ready.motions(pair)) {
-            const sliding::SlideResult r = result.model_level.scheme == RigidScheme::rocking
-                                               ? rock_model(ready.scene, model, motion, 1).slide
-                                               : slide_model(ready.scene, model, motion, 1);
-            result.status = r.status;
-            if (r.status != Status::at_rest) {
-                result.remark = r.notes.empty() ? std::string(status_row(r.status).meaning) : ending_of(r);
-                return;
-            }
-            result.slip.push_back(r.slip);
-        }
-}
-
-void ModelLevelRunner::run_finite_elements(const Scene& given, ModelLevelResult& result) const
-{
-    const ProcessorClock clock(ProcessorTimeOf::process);
-    const bool few_modes = result.model_level.modes.has_value();
-    const Ready ready = prepare(given, Method::finite_elements, records_, {.stop = watch_.stop()});
-    const fe2d::RunOptions options = ready.run_options(watch_);
-    const fe2d::EarthquakeRun full(ready.scene, options);
-    std::optional<fe2d::ReducedRun> reduced;
-    if (few_modes) reduced.emplace(full, ready.scene, options, *result.model_level.modes);
-    result.unknowns = full.water() ? static_cast<std::int64_t>(full.water()->size) + full.model().counts.unknowns -
-                                         static_cast<std::int64_t>(full.water()->dam_unknowns)
-                                   : full.model().counts.unknowns;
-    if (reduced) result.unknowns = *result.model_level.modes + 3; // rigid motions
-    result.set_up_seconds = clock.seconds();
-    for (const RecordPair& pair : ready.records())
-        for (const GroundMotion& motion : ready.motions(pair)) {
-            // Without an estimate of the modes left out: the hierarchy compares with the run that has all of them.
-            const fe2d::RunResult run =
-                reduced ? reduced->run(motion, {}, {}, fe2d::TruncationEstimate::left_out) : full.run(motion);
-            if (!take(run, result)) return;
-        }
+    const Ready ready = prepare(scene_of(scene_, model_level),
+                                model_level.family == ModelLevelFamily::rigid ? Method::rigid_block : Method::finite_elements,
+                                records_, {.stop = watch_.stop()});
+    const double seconds = clock.seconds();
+    // Without an estimate of the modes left out: the hierarchy compares with the run that has all of them.
+    static_cast<VariantRuns&>(result) = run_variant(ready,
+                                                    {.modes = model_level.modes,
+                                                     .rocking = model_level.scheme == RigidScheme::rocking,
+                                                     .ends_at_failure = true,
+                                                     .seconds_of = ProcessorTimeOf::process},
+                                                    watch_);
+    result.set_up_seconds += seconds;
+    if (result.motions.empty()) return;
+    result.status = result.motions.back().status;
+    result.remark = result.motions.back().message;
 }
 
 /// In some motion the block tips before it slides.
 bool ModelLevelRunner::rocks_first() const
 {
-    const Ready ready = prepare(scene_, Method::rigid_block, records_);
-    const RigidModel model = ready.rigid_model();
-    if (!model.rocking) return false;
-    for (const RecordPair& pair : ready.records())
-        for (const GroundMotion& motion : ready.motions(pair))
-            if (slide_model(ready.scene, model, motion, 1).status == Status::rocks_first) return true;
-    return false;
+    const VariantRuns runs = run_variant(prepare(scene_, Method::rigid_block, records_), {}, watch_);
+    return std::any_of(runs.motions.begin(), runs.motions.end(),
+                       [](const MotionOutcome& o) { return o.status == Status::rocks_first; });
 }
 
 double ModelLevelRunner::least_seconds(const ModelLevel& model_level) const
@@ -266,7 +208,9 @@ HierarchyFacts ModelLevelRunner::facts() const
         facts.left_out.push_back("No finite elements: dam.young_modulus_GPa is not given.");
         return facts;
     }
-    facts.rock = rock_kind(scene_);
+    facts.radiates = rock_radiates(scene_);
+    for (const OtherModel& other : other_models())
+        if (!other.level_word.empty() && other.concerns(scene_)) facts.other_models.emplace_back(other.level_word);
     facts.waters = waters_of(scene_, facts.left_out);
     facts.reducible = can_reduce(scene_of(scene_, parse_model_level("fe-added-mass:dt").value()), facts.left_out);
     facts.alphas = other_alphas(scene_.time);
@@ -295,32 +239,40 @@ std::vector<sliding::RegressionResult> results_of(const Ready& ready, const Reco
     return sliding::evaluate_all(regression_inputs(record, ready.motion(record), model, period));
 }
 
-std::optional<RegressionSlip> ensemble_slip(const Scene& scene, const std::vector<sliding::RegressionResult>& results)
+/// In centimetres, as regressions are published.
+MotionOutcome regression_outcome(double median, const std::optional<double>& low, const std::optional<double>& high,
+                                 const std::string& message)
+{
+    MotionOutcome outcome;
+    outcome.level = SlipLevel::regressions;
+    outcome.status = Status::at_rest;
+    outcome.message = message;
+    outcome.slip = median * units::cm;
+    if (low) outcome.low = *low * units::cm;
+    if (high) outcome.high = *high * units::cm;
+    return outcome;
+}
+
+std::optional<MotionOutcome> ensemble_slip(const Scene& scene, const std::vector<sliding::RegressionResult>& results)
 {
     std::vector<sliding::RegressionWeight> weights;
     for (const RegressionWeightKey& key : scene.regressions.weights)
         if (sliding::find_regression(key.model)) weights.push_back({key.model, key.weight});
     const sliding::Ensemble e = sliding::weighted_ensemble(results, weights);
     if (!e.median_cm) return std::nullopt;
-    RegressionSlip slip{*e.median_cm * units::cm, {}, {}, fmt::format("{} regressions", e.members.size())};
-    if (e.low_cm) slip.low = *e.low_cm * units::cm;
-    if (e.high_cm) slip.high = *e.high_cm * units::cm;
-    return slip;
+    return regression_outcome(*e.median_cm, e.low_cm, e.high_cm, fmt::format("{} regressions", e.members.size()));
 }
 
 } // namespace
 
-std::optional<RegressionSlip> regression_slip(const std::string& id, const Ready& ready, const RecordPair& record,
-                                              const RigidModel& model)
+std::optional<MotionOutcome> regression_slip(const std::string& id, const Ready& ready, const RecordPair& record,
+                                             const RigidModel& model)
 {
     const std::vector<sliding::RegressionResult> results = results_of(ready, record, model);
     if (id == "ensemble") return ensemble_slip(ready.scene, results);
     for (const sliding::RegressionResult& r : results) {
-        if (r.regression->id != id || !sliding::valid(r)) continue;
-        RegressionSlip slip{*r.median_cm * units::cm, {}, {}, ""};
-        if (r.minus_sd_cm) slip.low = *r.minus_sd_cm * units::cm;
-        if (r.plus_sd_cm) slip.high = *r.plus_sd_cm * units::cm;
-        return slip;
+        if (r.regression->id == id && sliding::valid(r))
+            return regression_outcome(*r.median_cm, r.minus_sd_cm, r.plus_sd_cm, "");
     }
     return std::nullopt;
 }

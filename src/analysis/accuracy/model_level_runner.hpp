@@ -1,9 +1,6 @@
 #pragma once
 
 #include "analysis/accuracy/hierarchy.hpp"
-#include "analysis/prepare/ready.hpp"
-
-#include <functional>
 
 namespace damslip {
 
@@ -24,14 +21,10 @@ public:
     /// What decides about model levels; regressions are evaluated for it.
     HierarchyFacts facts() const;
 
-    const Scene& scene() const { return scene_; }
-    const std::vector<RecordPair>& records() const { return *records_; }
-
 private:
     bool rocks_first() const;
     void run_regression(const ModelLevel& model_level, ModelLevelResult& result) const;
-    void run_rigid(const Scene& scene, ModelLevelResult& result) const;
-    void run_finite_elements(const Scene& scene, ModelLevelResult& result) const;
+    void run_model(const ModelLevel& model_level, ModelLevelResult& result) const;
 
     Scene scene_;
     Records records_;

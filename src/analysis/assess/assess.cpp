@@ -65,47 +65,10 @@ Scene with_flexible_block(Scene scene)
     return scene;
 }
 
-/// The worst record alone.
-Records worst_record(const Ready& ready, const ContactRun& worst)
-{
-    std::vector<RecordPair> one;
-    for (const RecordPair& pair : ready.records())
-        if (pair.files.name == worst.record) one.push_back(pair);
-    return std::make_shared<const std::vector<RecordPair>>(std::move(one));
-}
-
-struct Assumption {
-    std::string what;
-    Scene scene;
-    std::optional<Effect> without = {};
-    bool rigid_dam = false;
-};
-
-AssumptionRun run_assumption(const Assumption& assumption, const Assessment& a, Watch& watch)
-{
-    const Scene& scene = assumption.scene;
-    const ContactRun& worst = worst_of(a.runs);
-    const Ready changed = prepare(scene, Method::finite_elements, worst_record(*a.fe, worst), {.stop = watch.stop()});
-    FeOptions options;
-    options.polarity = worst.polarity;
-    options.mesh_error = false;
-    ContactRuns runs(changed, options, watch);
-    const std::vector<ContactRun> done = runs.run();
-    if (done.empty() || done.front().fe.status == Status::interrupted) throw Interrupted("a variant");
-    return {assumption.what, done.front().fe.status,
-            reported(done.front().fe.status, std::abs(done.front().fe.max_slip)), assumption.without,
-            assumption.rigid_dam};
-}
-
 /// Effects without which the model spread has run already.
 bool in_spread(Effect effect, const Assessment& a)
 {
-    const auto ran = [&](const char* what) {
-        return std::any_of(a.spread.begin(), a.spread.end(),
-                           [&](const ModelChoice& c) { return c.run && c.what == what; });
-    };
-    return (effect == Effect::acoustic_water && ran("added mass")) ||
-           (effect == Effect::rock_inertia && ran("massless rock"));
+    return std::ranges::any_of(a.spread.runs, [&](const MotionOutcome& o) { return o.without == effect; });
 }
 
 /// What tells the levels apart first: 0, 1; what follows from it is left for the end of the time.
@@ -125,9 +88,9 @@ int rank_of(Effect effect)
 }
 
 /// @param in_spread  effects without which the model spread has run already
-std::vector<Assumption> assumptions_of(const Ready& fe, const std::function<bool(Effect)>& in_spread)
+std::vector<Variant> assumptions_of(const Ready& fe, const std::function<bool(Effect)>& in_spread)
 {
-    std::vector<Assumption> list;
+    std::vector<Variant> list;
     Scene rigid = fe.given;
     let_floor_absorb(rigid);
     rigid.foundation.reset();
@@ -139,13 +102,13 @@ std::vector<Assumption> assumptions_of(const Ready& fe, const std::function<bool
         rigid.uplift->model = UpliftModel::points;
         rigid.uplift->points = seepage;
     }
-    list.push_back({"rigid dam on rigid rock", rigid, {}, true});
+    list.push_back({rigid_dam, rigid});
     AblationPlan plan = make_ablations(fe.given, Method::finite_elements, seepage);
     std::stable_sort(plan.removals.begin(), plan.removals.end(),
                      [](const Ablation& x, const Ablation& y) { return rank_of(x.effect) < rank_of(y.effect); });
     for (const Ablation& removal : plan.removals)
         if (!in_spread(removal.effect))
-            list.push_back({"without " + removal.name, removal.scene, removal.effect, false});
+            list.push_back({"without " + removal.name, removal.scene, removal.effect});
     return list;
 }
 
@@ -244,13 +207,7 @@ std::vector<ContactRun> runs_on_coarser_mesh(const Ready& fe, Watch& watch)
     if (fe.scene.mesh.file || elements_on_base(fe.scene) < twice * least_elements) return {};
     Scene scene = fe.given;
     scale_mesh(twice, scene);
-    const auto worst = std::make_shared<const std::vector<RecordPair>>(1, fe.records().front());
-    const Ready coarse = prepare(scene, Method::finite_elements, worst, {.stop = watch.stop()});
-    FeOptions options;
-    options.mesh_error = false;
-    ContactRuns all(coarse, options, watch);
-    std::vector<ContactRun> runs = all.run([](ContactRun& r, const GroundMotion&) { r.fe.history = {}; });
-    std::erase_if(runs, [](const ContactRun& r) { return r.fe.status == Status::interrupted; });
+    std::vector<ContactRun> runs = run_record(scene, fe.records().front(), {}, watch);
     for (ContactRun& r : runs) {
         r.mesh.check = MeshCheck::no_answer;
         r.mesh.reason = "the mesh's part of the error is not known: the time held elements of twice the size alone";
@@ -333,22 +290,22 @@ void run_variants(BudgetWatch& watch, Assessment& a)
     };
     const bool spread_fits = fits("massless rock and other water, finite elements", 2.0);
     try_part("model spread", watch, a.left_out, [&] { a.spread = model_spread(*a.fe, a.runs, spread_fits, watch); });
-    for (const ModelChoice& choice : a.spread) {
-        if (choice.run && choice.status == Status::interrupted)
+    for (const MotionOutcome& choice : a.spread.runs) {
+        if (choice.status == Status::interrupted)
             a.left_out.push_back({"finite elements, " + choice.what, why_ended(watch)});
-        else if (choice.run && choice.what != "other polarity")
-            a.assumptions.push_back({.what = choice.what,
-                                     .status = choice.status,
-                                     .slip = reported(choice.status, std::abs(choice.max_slip)),
-                                     .without = {}});
+        else if (choice.what != "other polarity")
+            a.assumptions.push_back(choice);
     }
-    std::vector<Assumption> list;
+    std::vector<Variant> list;
     try_part("effects in turn, finite elements", watch, a.left_out, [&] { list = assumptions_of(*a.fe, [&](Effect effect) { return in_spread(effect, a); }); });
-    for (const Assumption& assumption : list) {
+    for (const Variant& assumption : list) {
         if (!fits("finite elements, " + assumption.what, 1.0)) continue;
         const double before = watch.spent();
-        try_part("finite elements, " + assumption.what, watch, a.left_out,
-                 [&] { a.assumptions.push_back(run_assumption(assumption, a, watch)); });
+        try_part("finite elements, " + assumption.what, watch, a.left_out, [&] {
+            const MotionOutcome outcome = run_worst(assumption, *a.fe, worst_of(a.runs), watch);
+            if (outcome.status == Status::interrupted) throw Interrupted("a variant");
+            a.assumptions.push_back(outcome);
+        });
         sum += watch.spent() - before;
         expected = sum / ++done;
     }
@@ -376,7 +333,9 @@ void plan_finite_elements(const Scene& given, const Watch& watch, WorkPlan& plan
         const std::size_t polarities = polarities_of(plan.fe->scene).size();
         runs.runs = polarities * plan.fe->records().size();
         spectrum.runs = plan.fe->records().size();
-        const auto replaced = [](Effect e) { return e == Effect::acoustic_water || e == Effect::rock_inertia; };
+        const auto replaced = [](Effect e) {
+            return std::ranges::any_of(other_models(), [&](const OtherModel& other) { return other.without == e; });
+        };
         variants.runs = assumptions_of(*plan.fe, replaced).size() + (has_water(plan.fe->scene) ? 2 : 1);
         if (cost.seconds_per_step) {
             double all = 0.0;

@@ -1,8 +1,6 @@
 #pragma once
 
 #include "analysis/ablation/ablation.hpp"
-#include "analysis/fe/contact_runs.hpp"
-#include "analysis/fe/tied_runs.hpp"
 #include "analysis/screen/screening.hpp"
 #include "analysis/spectrum/spectrum_level.hpp"
 #include "core/watch.hpp"
@@ -15,29 +13,7 @@
 /// Every level of effort on one dam, and what they say together.
 namespace damslip {
 
-/// Levels that give a slip, from the least effort on.
-enum class SlipLevel { regressions, rigid_block, flexible_block, finite_elements };
-std::string word(SlipLevel level); ///< "rigid block"
-
-/// Slip of one level under one record, of the worse polarity.
-struct LevelSlip {
-    SlipLevel level = SlipLevel::rigid_block;
-    std::string record;
-    int polarity = 0; ///< 0: of both
-    std::string how;  ///< "weighted median, 16 to 84 %", "rocking and sliding", "coupled"
-    Status status = Status::not_resolved;
-    std::optional<double> slip;      ///< largest on the way; none: the status has none [m]
-    std::optional<double> low, high; ///< numerical error, or the scatter of regressions [m]
-};
-
-/// Finite elements on the worst record and polarity with one assumption changed.
-struct AssumptionRun {
-    std::string what; ///< "without vertical motion", "rigid dam on rigid rock"
-    Status status = Status::not_resolved;
-    std::optional<double> slip;    ///< [m]
-    std::optional<Effect> without; ///< the effect that is left out; none: another kind of change
-    bool rigid_dam = false;        ///< dam and rock are rigid, as those of the rigid block
-};
+inline constexpr const char* rigid_dam = "rigid dam on rigid rock"; ///< variant of the finite elements, as the rigid block's
 
 /// What did not fit or could not be run.
 struct LeftOut {
@@ -46,8 +22,8 @@ struct LeftOut {
 
 /// Two levels more than three times apart, and the assumption that lies between them.
 struct Disagreement {
-    LevelSlip lower, higher;
-    std::optional<AssumptionRun> closest; ///< the run of finite elements nearest to the other level; none: none was run
+    MotionOutcome lower, higher;
+    std::optional<MotionOutcome> closest; ///< the run of finite elements nearest to the other level; none: none was run
     bool explains = false;                ///< that run is nearer to the other level than to the full finite elements
 };
 
@@ -105,14 +81,14 @@ struct Assessment {
     std::optional<Ready> fe;                ///< what the finite elements ran; none: they cannot take the scene
     std::string rock_change;                ///< of the scene, where it says massless rock; empty: as it says
     std::vector<ContactRun> runs;           ///< finite elements, those that came to their end
-    std::vector<ModelChoice> spread;        ///< on the worst record
-    std::vector<AssumptionRun> assumptions; ///< the same
+    ModelSpread spread;                     ///< on the worst record
+    std::vector<MotionOutcome> assumptions; ///< the same with one assumption changed
     std::vector<LeftOut> left_out;
     std::map<AssessPart, double> seconds_of; ///< wall time of each part that began [s]
     bool interrupted = false; ///< by the user: nothing is recommended
     double seconds = 0.0;     ///< wall time
 
-    std::vector<LevelSlip> levels;
+    std::vector<MotionOutcome> levels; ///< of each level and record the worse polarity; 0: of both
     std::vector<Disagreement> disagreements;
     std::optional<Recommendation> recommended;
     Verdict slip_verdict = Verdict::none;

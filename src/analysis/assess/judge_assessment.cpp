@@ -10,34 +10,38 @@ namespace damslip {
 
 namespace {
 
-LevelSlip level_of_row(SlipLevel level, const SlipRow& row, const std::string& how, const sliding::SlideResult& slide,
+MotionOutcome level_of(SlipLevel level, const MotionName& motion, const std::string& how, Status status, double max_slip,
                        double error)
 {
-    LevelSlip out{level, row.record, row.polarity, how, slide.status, reported(slide.status, slide.max_slip), {}, {}};
-    if (out.slip && std::isfinite(error)) {
-        out.low = std::max(0.0, *out.slip - error);
-        out.high = *out.slip + error;
+    MotionOutcome out{motion, how, level, status};
+    out.largest_slip = reported(status, max_slip);
+    if (out.largest_slip && std::isfinite(error)) {
+        out.low = std::max(0.0, *out.largest_slip - error);
+        out.high = *out.largest_slip + error;
     }
     return out;
 }
 
-void add_regressions(const Screening& s, const std::string& record, std::vector<LevelSlip>& levels)
+void add_regressions(const Screening& s, const std::string& record, std::vector<MotionOutcome>& levels)
 {
     for (const RegressionRow& row : s.regressions)
-        if (row.record == record && row.id == weighted_median_id && row.median)
-            levels.push_back({SlipLevel::regressions, record, 0, "weighted median, 16 to 84 %", Status::at_rest,
-                              row.median, row.low, row.high});
+        if (row.record == record && row.id == weighted_median_id && row.median) {
+            MotionOutcome& out = levels.emplace_back(level_of(SlipLevel::regressions, {record, 0},
+                                                              "weighted median, 16 to 84 %", Status::at_rest, *row.median, std::nan("")));
+            out.low = row.low;
+            out.high = row.high;
+        }
 }
 
 /// The rigid block as it is judged: sliding, or rocking and sliding where that alone does not hold.
-void add_block(const Screening& s, std::size_t number, SlipLevel level, std::vector<LevelSlip>& levels)
+void add_block(const Screening& s, std::size_t number, SlipLevel level, std::vector<MotionOutcome>& levels)
 {
     const SlipRow& row = worse_judged(s, number);
     const GoverningSlip g = row.governing();
-    levels.push_back(level_of_row(level, row, std::string(g.method), g.slide, g.error));
+    levels.push_back(level_of(level, {row.record, row.polarity}, std::string(g.method), g.slide.status, g.slide.max_slip, g.error));
 }
 
-void add_finite_elements(const Assessment& a, const std::string& record, std::vector<LevelSlip>& levels)
+void add_finite_elements(const Assessment& a, const std::string& record, std::vector<MotionOutcome>& levels)
 {
     std::vector<ContactRun> own;
     for (const ContactRun& r : a.runs)
@@ -45,24 +49,12 @@ void add_finite_elements(const Assessment& a, const std::string& record, std::ve
     if (own.empty()) return;
     const ContactRun& worst = worst_of(own);
     const SlipError error = slip_error(worst);
-    LevelSlip out{SlipLevel::finite_elements,
-                  record,
-                  worst.polarity,
-                  error.parts(),
-                  worst.fe.status,
-                  reported(worst.fe.status, std::abs(worst.fe.max_slip)),
-                  {},
-                  {}};
-    if (out.slip && std::isfinite(error.total)) {
-        out.low = std::max(0.0, *out.slip - error.total);
-        out.high = *out.slip + error.total;
-    }
-    levels.push_back(std::move(out));
+    levels.push_back(level_of(SlipLevel::finite_elements, worst, error.parts(), worst.fe.status, std::abs(worst.fe.max_slip), error.total));
 }
 
-std::vector<LevelSlip> levels_of(const Assessment& a)
+std::vector<MotionOutcome> levels_of(const Assessment& a)
 {
-    std::vector<LevelSlip> levels;
+    std::vector<MotionOutcome> levels;
     const std::size_t records = a.screening.slips.size() / 2;
     for (std::size_t i = 0; i < records; ++i) {
         const std::string record = a.screening.slips[2 * i].record;
@@ -84,19 +76,20 @@ double times_apart(double a, double b)
 
 /// Do the finite elements, with that changed, come closer to what the level assumes? Uplift and a vertical component are in
 /// the blocks, too; regressions have the uplift, by the yield acceleration. A flexible block is not rigid.
-bool parts_from(SlipLevel level, const AssumptionRun& run)
+bool parts_from(SlipLevel level, const MotionOutcome& run)
 {
     if (run.without == Effect::uplift) return false;
     if (run.without == Effect::vertical_motion) return level == SlipLevel::regressions;
-    return !(run.rigid_dam && level == SlipLevel::flexible_block);
+    return !(run.what == rigid_dam && level == SlipLevel::flexible_block);
 }
 
 /// Of the runs of finite elements that can tell them from a level the one nearest to its slip.
-std::optional<AssumptionRun> nearest(const std::vector<AssumptionRun>& runs, SlipLevel level, double slip)
+std::optional<MotionOutcome> nearest(const std::vector<MotionOutcome>& runs, SlipLevel level, double slip)
 {
-    const AssumptionRun* best = nullptr;
-    for (const AssumptionRun& run : runs)
-        if (run.slip && parts_from(level, run) && (!best || std::abs(*run.slip - slip) < std::abs(*best->slip - slip)))
+    const MotionOutcome* best = nullptr;
+    for (const MotionOutcome& run : runs)
+        if (run.largest_slip && parts_from(level, run) &&
+            (!best || std::abs(*run.largest_slip - slip) < std::abs(*best->largest_slip - slip)))
             best = &run;
     return best ? std::optional(*best) : std::nullopt;
 }
@@ -107,16 +100,18 @@ std::vector<Disagreement> disagreements_of(const Assessment& a)
     std::vector<Disagreement> list;
     if (!a.recommended || a.recommended->level != SlipLevel::finite_elements) return list;
     const double full = a.recommended->slip;
-    const auto of_fe = std::find_if(a.levels.begin(), a.levels.end(), [&](const LevelSlip& l) {
+    const auto of_fe = std::find_if(a.levels.begin(), a.levels.end(), [&](const MotionOutcome& l) {
         return l.level == SlipLevel::finite_elements && l.record == a.recommended->record;
     });
-    for (const LevelSlip& other : a.levels) {
-        if (other.record != a.recommended->record || other.level == SlipLevel::finite_elements || !other.slip) continue;
-        if (times_apart(*other.slip, full) <= disagreement_factor) continue;
-        Disagreement d{*other.slip < full ? other : *of_fe, *other.slip < full ? *of_fe : other, {}, false};
-        d.closest = nearest(a.assumptions, other.level, *other.slip);
-        d.explains = d.closest && times_apart(*d.closest->slip, *other.slip) < times_apart(*d.closest->slip, full) &&
-                     std::abs(*d.closest->slip - *other.slip) < std::abs(full - *other.slip);
+    for (const MotionOutcome& other : a.levels) {
+        if (other.record != a.recommended->record || other.level == SlipLevel::finite_elements || !other.largest_slip) continue;
+        const double slip = *other.largest_slip;
+        if (times_apart(slip, full) <= disagreement_factor) continue;
+        Disagreement d{slip < full ? other : *of_fe, slip < full ? *of_fe : other, nearest(a.assumptions, other.level, slip), false};
+        if (d.closest) {
+            const double closest = *d.closest->largest_slip;
+            d.explains = times_apart(closest, slip) < times_apart(closest, full) && std::abs(closest - slip) < std::abs(full - slip);
+        }
         list.push_back(std::move(d));
     }
     return list;
@@ -146,13 +141,11 @@ std::optional<Recommendation> by_finite_elements(const Assessment& a)
             r.from = "the other polarity with its numerical error; that of this run is not known";
         }
     }
-    for (const ModelChoice& choice : a.spread) {
+    for (const MotionOutcome& choice : a.spread.runs) {
         // Massless rock is no other opinion of the same rock: it keeps every wave. It is shown, not counted.
-        if (!choice.run || choice.what == "massless rock") continue;
-        const std::optional<double> other = reported(choice.status, std::abs(choice.max_slip));
-        if (!other) continue;
-        r.low = std::min(r.low, *other);
-        r.high = std::max(r.high, *other);
+        if (choice.what == "massless rock" || !choice.largest_slip) continue;
+        r.low = std::min(r.low, *choice.largest_slip);
+        r.high = std::max(r.high, *choice.largest_slip);
         r.from += ", " + choice.what;
     }
     return r;
@@ -162,20 +155,21 @@ std::optional<Recommendation> by_finite_elements(const Assessment& a)
 std::optional<Recommendation> by_blocks(const Assessment& a)
 {
     for (const SlipLevel level : {SlipLevel::flexible_block, SlipLevel::rigid_block}) {
-        const LevelSlip* worst = nullptr;
+        const MotionOutcome* worst = nullptr;
         bool all = true;
-        for (const LevelSlip& l : a.levels) {
+        for (const MotionOutcome& l : a.levels) {
             if (l.level != level) continue;
-            all = all && l.slip && status_row(l.status).slip == SlipMeaning::final;
-            if (l.slip && (!worst || *l.slip > *worst->slip)) worst = &l;
+            all = all && l.largest_slip && status_row(l.status).slip == SlipMeaning::final;
+            if (l.largest_slip && (!worst || *l.largest_slip > *worst->largest_slip)) worst = &l;
         }
         if (!worst || !all) continue;
-        Recommendation r{level,        worst->record, worst->polarity, *worst->slip,
-                         *worst->slip, *worst->slip,  false,           "this level and the regressions' 16 to 84 %"};
-        for (const LevelSlip& l : a.levels) {
+        const double slip = *worst->largest_slip;
+        Recommendation r{level, worst->record, worst->polarity, slip, slip, slip, false,
+                         "this level and the regressions' 16 to 84 %"};
+        for (const MotionOutcome& l : a.levels) {
             if (l.record != worst->record || l.level == SlipLevel::finite_elements) continue;
-            r.low = std::min({r.low, l.slip.value_or(r.low), l.low.value_or(r.low)});
-            r.high = std::max({r.high, l.slip.value_or(r.high), l.high.value_or(r.high)});
+            r.low = std::min({r.low, l.largest_slip.value_or(r.low), l.low.value_or(r.low)});
+            r.high = std::max({r.high, l.largest_slip.value_or(r.high), l.high.value_or(r.high)});
         }
         return r;
     }
@@ -250,21 +244,6 @@ void judge_slip(Assessment& a)
 }
 
 } // namespace
-
-std::string word(SlipLevel level)
-{
-    switch (level) {
-    case SlipLevel::regressions:
-        return "regressions";
-    case SlipLevel::rigid_block:
-        return "rigid block";
-    case SlipLevel::flexible_block:
-        return "flexible block";
-    case SlipLevel::finite_elements:
-        return "finite elements";
-    }
-    return "";
-}
 
 const ContactRun& governing_run(const Assessment& a)
 {

@@ -47,7 +47,7 @@ Drawing slip_bars(const Ablations& in, std::size_t motion)
         Bar b{r.name,
               {},
               r.change_error.value_or(0.0) / mm,
-              r.slip.value ? "no change to show" : word(r.status),
+              r.slip.value ? "no change to show" : r.status,
               r.within_step_error};
         if (r.still_sliding && r.slip.value)
             b.words = fmt::format("still sliding after {:.4g} mm", *r.slip.value / mm);
@@ -59,7 +59,7 @@ Drawing slip_bars(const Ablations& in, std::size_t motion)
     }
     const auto& full = rows.front().slip.value;
     std::string note = full ? fmt::format("With all effects the dam slides {:.4g} mm. ", *full / mm)
-                            : "With all effects: " + word(rows.front().status) + ". ";
+                            : "With all effects: " + rows.front().status + ". ";
     note += "To the right: without the effect it slides further.";
     if (in.runs.step)
         note += " Whiskers: what the time step leaves open in the change; hollow: the change is within it.";
@@ -70,7 +70,7 @@ Drawing slip_bars(const Ablations& in, std::size_t motion)
 Drawing second_bars(const Ablations& in)
 {
     const std::vector<std::string> names = scene_names(in.plan);
-    const double whole = seconds_of(in.runs.scenes.front()).sum();
+    const double whole = in.runs.scenes.front().all_seconds();
     const bool small = whole < 0.1;
     const double unit = small ? 1e-3 : 1.0;
     const char* const word = small ? "ms" : "s";
@@ -116,7 +116,7 @@ std::string motion_sentence(const Ablations& in, std::size_t motion)
     const AblationRow* most = strongest(in.plan, rows);
     const std::string name = in.runs.motions[motion].label();
     if (!rows.front().slip.value)
-        return fmt::format("Record {}: the full scene ends as {}.", name, word(rows.front().status));
+        return fmt::format("Record {}: the full scene ends as {}.", name, rows.front().status);
     if (!most) return fmt::format("Record {}: the dam slides {:.4g} mm.", name, *rows.front().slip.value / mm);
     return fmt::format("Record {}: the dam slides {:.4g} mm; most depends on {}, without it {:+.4g} mm.", name,
                        *rows.front().slip.value / mm, most->name, *most->slip.change / mm);
@@ -153,7 +153,7 @@ std::vector<std::pair<std::string, std::string>> key_figures(const Ablations& in
         {"Effects removed",
          fmt::format("{} of {} that are on", in.plan.removals.size(), in.plan.removals.size() + in.plan.kept.size())}};
     if (in.runs.step) list.emplace_back("Time step", fmt::format("{:.4g} s", in.runs.step->largest_dt));
-    list.emplace_back("Time with all effects", fmt::format("{:.3g} s", seconds_of(in.runs.scenes.front()).sum()));
+    list.emplace_back("Time with all effects", fmt::format("{:.3g} s", in.runs.scenes.front().all_seconds()));
     return list;
 }
 
@@ -167,7 +167,7 @@ std::vector<std::string> warnings(const Ablations& in)
         for (std::size_t i = 0; i < names.size(); ++i) {
             const MotionOutcome& o = in.runs.scenes[i].motions[r];
             if (o.slip && !o.still_sliding) continue;
-            const std::string why = o.still_sliding ? "still sliding after the run-out" : o.message;
+            const std::string why = o.still_sliding ? "still sliding after the run-out" : o.reason();
             list.push_back(fmt::format(
                 "{}, {}: {}{}{}", in.runs.motions[r].label(), i == 0 ? "with all effects" : "without " + names[i],
                 o.still_sliding ? "" : word(o.status), why.empty() || o.still_sliding ? "" : ": ", why));
@@ -301,7 +301,7 @@ std::vector<std::string> ablation_notes(const Ablations& in)
     for (std::size_t r = 0; r < in.runs.motions.size(); ++r)
         if (const MotionOutcome& full = in.runs.scenes.front().motions[r]; !full.slip)
             notes.push_back(fmt::format("{}: with all effects {}, so there is no slip that a removal could change. {}",
-                                        in.runs.motions[r].label(), word(full.status), full.message));
+                                        in.runs.motions[r].label(), word(full.status), full.reason()));
     if (const StatusCount unanswered = unanswered_runs(in.runs); !unanswered.empty())
         notes.push_back("runs without an answer: " + unanswered.words() + ".");
     if (in.records.empty())

@@ -24,21 +24,10 @@ std::string name_of(const AblationPlan& plan, const std::optional<Effect>& effec
     return "";
 }
 
-/// A scene under one motion, or the sum of the changes.
-struct ChangeRow {
-    MotionName motion;
-    std::string name, status;
-    Change slip, crest;
-    std::optional<double> slip_error, change_error; ///< [m]
-    std::vector<Change> lifts;
-    std::string remark;
-
-    Change lift(std::size_t k) const { return k < lifts.size() ? lifts[k] : Change{}; }
-};
-
-ChangeRow sum_row(const AblationPlan& plan, const std::vector<AblationRow>& rows, const MotionName& motion)
+AblationRow sum_row(const AblationPlan& plan, const std::vector<AblationRow>& rows)
 {
-    ChangeRow row{motion, "(sum of changes)", "sum", {}, {}, {}, {}, {}, "some run has no final slip"};
+    AblationRow row{rows.front().motion, "(sum of changes)", "sum"};
+    row.remark = "some run has no final slip";
     const double full = rows.front().slip.value.value_or(0.0);
     if (const std::optional<double> sum = sum_of_changes(plan, rows)) {
         row.slip.change = sum;
@@ -49,20 +38,16 @@ ChangeRow sum_row(const AblationPlan& plan, const std::vector<AblationRow>& rows
 }
 
 /// The sum stands before the row of the simplest scene, which it compares with.
-void add_changes(const Ablations& in, std::size_t number, std::vector<ChangeRow>& list)
+void add_changes(const Ablations& in, std::size_t motion, std::vector<AblationRow>& list)
 {
-    const MotionName& motion = in.runs.motions[number];
-    const std::vector<AblationRow> rows = rows_of(in.plan, in.runs, number);
-    for (const AblationRow& r : rows) {
-        if (in.plan.simplest && &r == &rows.back()) list.push_back(sum_row(in.plan, rows, motion));
-        list.push_back(
-            {motion, r.name, word(r.status), r.slip, r.crest, r.slip_error, r.change_error, r.lifts, r.remark});
-    }
+    std::vector<AblationRow> rows = rows_of(in.plan, in.runs, motion);
+    if (in.plan.simplest) rows.insert(rows.end() - 1, sum_row(in.plan, rows));
+    list.insert(list.end(), rows.begin(), rows.end());
 }
 
-std::vector<ColumnOf<ChangeRow>> change_columns(const Ablations& in)
+std::vector<ColumnOf<AblationRow>> change_columns(const Ablations& in)
 {
-    using R = ChangeRow;
+    using R = AblationRow;
     const ColumnOf<R> slip_error{in_brief({"slip_error_mm", "± step", "mm", 2}),
                                  [](const R&r) { return optional_cell(r.slip_error, mm); }},
         change_error{in_brief({"change_error_mm", "± step", "mm", 2}),
@@ -85,9 +70,9 @@ std::vector<ColumnOf<ChangeRow>> change_columns(const Ablations& in)
         for (std::size_t k = 0; k < in.plan.full.lift_joints.size(); ++k) {
             const std::string key = fmt::format("lift_joint_{}_", k + 1);
             columns.push_back({{key + "slip_mm", "slip, " + in.plan.full.lift_joints[k].name, "mm", 5},
-                               [k](const R& r) { return optional_cell(r.lift(k).value, mm); }});
+                               [k](const R& r) { return k < r.lifts.size() ? optional_cell(r.lifts[k].value, mm) : Cell(); }});
             columns.push_back({{key + "change_mm", "change", "mm", 4},
-                               [k](const R& r) { return optional_cell(r.lift(k).change, mm); }});
+                               [k](const R& r) { return k < r.lifts.size() ? optional_cell(r.lifts[k].change, mm) : Cell(); }});
         }
     }
     columns.push_back({in_brief({"remark", "remark"}), &R::remark});
@@ -113,18 +98,18 @@ Table removal_table(const Ablations& in)
 
 Table change_table(const Ablations& in, std::size_t motion)
 {
-    std::vector<ChangeRow> rows;
+    std::vector<AblationRow> rows;
     add_changes(in, motion, rows);
     return table_of("Record " + in.runs.motions[motion].label(), change_columns(in), rows);
 }
 
 Table change_table_of_all(const Ablations& in)
 {
-    std::vector<ChangeRow> rows;
+    std::vector<AblationRow> rows;
     for (std::size_t r = 0; r < in.runs.motions.size(); ++r) add_changes(in, r, rows);
-    std::vector<ColumnOf<ChangeRow>> columns = change_columns(in);
-    columns.insert(columns.begin(), {{{"record", "record"}, [](const ChangeRow& r) { return r.motion.record; }},
-                                     {{"polarity", "polarity"}, [](const ChangeRow& r) { return r.motion.polarity; }}});
+    std::vector<ColumnOf<AblationRow>> columns = change_columns(in);
+    columns.insert(columns.begin(), {{{"record", "record"}, [](const AblationRow& r) { return r.motion.record; }},
+                                     {{"polarity", "polarity"}, [](const AblationRow& r) { return r.motion.polarity; }}});
     return table_of("Changes by effect", columns, rows);
 }
 
@@ -135,10 +120,10 @@ Table yield_change_table(const Ablations& in)
         Change yield, critical_friction;
     };
     const std::vector<std::string> names = scene_names(in.plan);
-    const SceneRuns& full = in.runs.scenes.front();
+    const VariantRuns& full = in.runs.scenes.front();
     std::vector<Row> rows{{names[0], {full.yield_acceleration, {}, {}}, {full.critical_friction, {}, {}}}};
     for (std::size_t i = 1; i < names.size(); ++i) {
-        const SceneRuns& own = in.runs.scenes[i];
+        const VariantRuns& own = in.runs.scenes[i];
         rows.push_back({names[i], change_from(full.yield_acceleration, own.yield_acceleration),
                         change_from(full.critical_friction, own.critical_friction)});
     }
@@ -159,25 +144,25 @@ Table seconds_table(const Ablations& in)
 {
     struct Row {
         std::string name;
-        SceneSeconds seconds;
+        const VariantRuns& runs;
         std::optional<double> saved;
-        std::int64_t unknowns;
-        std::optional<std::int64_t> unknowns_saved;
+        std::optional<std::int64_t> unknowns_saved = {};
+
+        std::int64_t unknowns() const { return runs.unknowns.value_or(0); }
     };
     const std::vector<std::string> names = scene_names(in.plan);
-    const SceneRuns& full = in.runs.scenes.front();
-    std::vector<Row> rows{{names[0], seconds_of(full), {}, full.unknowns, {}}};
+    const VariantRuns& full = in.runs.scenes.front();
+    std::vector<Row> rows{{names[0], full, {}}};
     for (std::size_t i = 1; i < names.size(); ++i) {
-        const SceneRuns& own = in.runs.scenes[i];
-        rows.push_back(
-            {names[i], seconds_of(own), saved_seconds(full, own), own.unknowns, full.unknowns - own.unknowns});
+        rows.push_back({names[i], in.runs.scenes[i], saved_seconds(full, in.runs.scenes[i])});
+        rows.back().unknowns_saved = rows.front().unknowns() - rows.back().unknowns();
     }
-    const double percent = 0.01 * seconds_of(full).sum();
+    const double percent = 0.01 * full.all_seconds();
     std::vector<ColumnOf<Row>> columns{
         {{"effect", "without"}, &Row::name},
-        {{"set_up_seconds", "set-up", "s", 3}, [](const Row& r) { return r.seconds.set_up; }},
-        {{"run_seconds", "runs", "s", 3}, [](const Row& r) { return r.seconds.runs; }},
-        {{"seconds", "sum", "s", 3}, [](const Row& r) { return r.seconds.sum(); }},
+        {{"set_up_seconds", "set-up", "s", 3}, [](const Row& r) { return r.runs.set_up_seconds; }},
+        {{"run_seconds", "runs", "s", 3}, [](const Row& r) { return r.runs.run_seconds(); }},
+        {{"seconds", "sum", "s", 3}, [](const Row& r) { return r.runs.all_seconds(); }},
         {{"saved_seconds", "saved", "s", 2}, [](const Row& r) { return optional_cell(r.saved); }},
         {{"saved_percent", "saved", "%", 2}, [=](const Row& r) { return optional_cell(r.saved, percent); }}};
     if (fe(in)) {
@@ -197,7 +182,7 @@ Table seconds_table(const Ablations& in)
 StatusCount unanswered_runs(const AblationRuns& runs)
 {
     StatusCount count;
-    for (const SceneRuns& scene : runs.scenes)
+    for (const VariantRuns& scene : runs.scenes)
         for (const MotionOutcome& r : scene.motions)
             if (!is_answer(r.status)) count.add(r.status);
     if (runs.step && runs.step->missed) count.add(Status::tolerance_missed);

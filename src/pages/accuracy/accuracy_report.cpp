@@ -99,7 +99,7 @@ std::vector<std::pair<std::string, std::string>> key_figures(const AccuracyRepor
     if (!j.top) return list;
     const ModelLevelResult& top = in.results[*j.top];
     list.emplace_back("Slip of the finest model level",
-                      fmt::format("{:.4g} mm ({})", top.slip[j.motion] / units::mm, in.motions()[j.motion].label()));
+                      fmt::format("{:.4g} mm ({})", top.slip(j.motion) / units::mm, in.motions()[j.motion].label()));
     list.emplace_back("Finest model level", model_level_id(top.model_level));
     if (j.top_error) list.emplace_back("It leaves open", fmt::format("{:.2g} %", 100.0 * *j.top_error));
     list.emplace_back("It takes", fmt::format("{:.3g} s", top.seconds));
@@ -115,7 +115,7 @@ std::string not_drawn(const std::vector<ModelLevelResult>& results)
 {
     std::string list;
     for (const ModelLevelResult& r : results)
-        if (!r.done() && r.outcome != ModelLevelOutcome::skipped)
+        if (!r.done() && !r.skipped)
             list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", model_level_id(r.model_level), word(r.status));
     return list.empty() ? "" : " Not drawn: " + list + ".";
 }

@@ -16,24 +16,8 @@ using units::mm;
 /// Of the list; empty for a model level that was skipped, and for a regression, which gives an estimate and no run.
 Cell status_cell(const ModelLevelResult& r)
 {
-    if (r.outcome == ModelLevelOutcome::skipped) return {};
-    if (r.done() && r.model_level.family == ModelLevelFamily::regression) return {};
+    if (r.skipped || (r.done() && r.model_level.family == ModelLevelFamily::regression)) return {};
     return word(r.status);
-}
-
-std::string remark_of(const ModelLevelResult& r)
-{
-    switch (r.outcome) {
-    case ModelLevelOutcome::done:
-    case ModelLevelOutcome::failed:
-    case ModelLevelOutcome::refused:
-        return r.remark;
-    case ModelLevelOutcome::skipped:
-        return "skipped: " + r.remark;
-    case ModelLevelOutcome::stopped:
-        return "";
-    }
-    return "";
 }
 
 struct ModelLevelRow {
@@ -41,15 +25,15 @@ struct ModelLevelRow {
     const ModelLevelVerdict& verdict;
     const Judgement& judgement;
 
-    Cell of_motion(const std::vector<double>& values) const
+    Cell of_motion(std::optional<double> MotionOutcome::*value) const
     {
-        return judgement.motion < values.size() ? Cell(values[judgement.motion] / mm) : Cell();
+        return judgement.motion < result.motions.size() ? optional_cell(result.motions[judgement.motion].*value, mm) : Cell();
     }
     /// Of its slip from the top's, over the top's [%].
     Cell off_top_percent() const
     {
         if (!result.done() || !judgement.top || !verdict.off_top) return {};
-        const double top = std::abs(result.slip[judgement.motion] - *verdict.off_top);
+        const double top = std::abs(result.slip(judgement.motion) - *verdict.off_top);
         return top >= least_slip ? Cell(100.0 * *verdict.off_top / top) : Cell();
     }
 };
@@ -57,15 +41,15 @@ struct ModelLevelRow {
 std::vector<ColumnOf<ModelLevelRow>> model_level_columns()
 {
     using R = ModelLevelRow;
-    const auto if_done = [](auto ModelLevelResult::*value) {
+    const auto if_done = [](auto value) {
         return [=](const R& r) { return r.result.done() ? Cell(r.result.*value) : Cell(); };
     };
     const auto megabytes = [](const R& r) { return r.result.done() ? optional_cell(r.result.bytes, 1e6) : Cell(); };
     const auto deviation = [](const R& r) { return r.verdict.deviation ? Cell(100.0 * *r.verdict.deviation) : Cell(); };
     return {{in_brief({"rung", "model level"}), [](const R& r) { return model_level_id(r.result.model_level); }},
-            {in_brief({"slip_mm", "slip", "mm", 5}), [](const R& r) { return r.of_motion(r.result.slip); }},
-            {{"slip_16_mm", "16 %", "mm", 3}, [](const R& r) { return r.of_motion(r.result.low); }},
-            {{"slip_84_mm", "84 %", "mm", 3}, [](const R& r) { return r.of_motion(r.result.high); }},
+            {in_brief({"slip_mm", "slip", "mm", 5}), [](const R& r) { return r.of_motion(&MotionOutcome::slip); }},
+            {{"slip_16_mm", "16 %", "mm", 3}, [](const R& r) { return r.of_motion(&MotionOutcome::low); }},
+            {{"slip_84_mm", "84 %", "mm", 3}, [](const R& r) { return r.of_motion(&MotionOutcome::high); }},
             {in_brief({"error_mm", "± steps, mesh", "mm", 2}), [](const R& r) { return optional_cell(r.verdict.error, mm); }},
             {{"model_difference_mm", "model − top's", "mm", 3},
              [](const R& r) { return optional_cell(r.verdict.model_difference, mm); }},
@@ -81,7 +65,7 @@ std::vector<ColumnOf<ModelLevelRow>> model_level_columns()
             {{"time_step_s", "step", "s", 4}, [](const R& r) { return optional_cell(r.result.time_step); }},
             {{"steps", "steps"}, [](const R& r) { return optional_cell(r.result.steps); }},
             {in_brief({"status", "status"}), [](const R& r) { return status_cell(r.result); }},
-            {{"remark", "remark"}, [](const R& r) { return remark_of(r.result); }}};
+            {{"remark", "remark"}, [](const R& r) { return (r.result.skipped ? "skipped: " : "") + r.result.remark; }}};
 }
 
 } // namespace
@@ -105,7 +89,7 @@ Table model_level_table(const std::vector<ModelLevelResult>& results, const Judg
         "dt=adaptive: the same with time.stepping = \"adaptive\"; 2h, h/2: "
         "elements of twice and half the scene's size; q8: quadratic elements of the size before it; stick: penalty in "
         "N/m³."};
-    if (j.top && results[*j.top].slip.size() > 1)
+    if (j.top && results[*j.top].motions.size() > 1)
         t.notes.push_back("slips and millimetres: of the record and polarity that slide the top model level furthest.");
     return t;
 }
@@ -123,7 +107,7 @@ Table model_table(const std::vector<ModelLevelResult>& results, const Judgement&
     using M = ModelLimit;
     double reference = 0.0; // of the limits: the top's own, or its slip
     if (j.top) {
-        reference = results[*j.top].slip[j.motion];
+        reference = results[*j.top].slip(j.motion);
         const std::string top = model_of(results[*j.top].model_level);
         for (const M& m : j.models)
             if (m.model == top) reference = m.slip[j.motion];
@@ -162,8 +146,8 @@ Table slip_table(const std::vector<ModelLevelResult>& results, const std::vector
     };
     std::vector<Row> rows;
     for (const ModelLevelResult& r : results)
-        for (std::size_t i = 0; i < r.slip.size() && i < motions.size(); ++i)
-            rows.push_back({model_level_id(r.model_level), motions[i], r.slip[i]});
+        for (std::size_t i = 0; i < r.motions.size() && i < motions.size(); ++i)
+            rows.push_back({model_level_id(r.model_level), motions[i], r.slip(i)});
     return table_of<Row>("",
                          {{{"rung", "model level"}, &Row::model_level},
                           {{"record", "record"}, [](const Row& r) { return r.motion.record; }},
@@ -178,9 +162,9 @@ Table one_model_level_table(const ModelLevelResult& result, const std::vector<Mo
     return table_of<Number>("Model level " + model_level_id(result.model_level),
                             {{in_brief({"record", "record"}), [&](Number i) { return motions[i].record; }},
                              {in_brief({"polarity", "polarity"}), [&](Number i) { return motions[i].polarity; }},
-                             {ranking({"slip_mm", "slip", "mm", 6}), [&](Number i) { return result.slip[i] / mm; }},
+                             {ranking({"slip_mm", "slip", "mm", 6}), [&](Number i) { return result.slip(i) / mm; }},
                              {in_brief({"seconds", "time, all motions", "s", 3}), [&](Number) { return result.seconds; }}},
-                            std::views::iota(Number{0}, result.slip.size()));
+                            std::views::iota(Number{0}, result.motions.size()));
 }
 
 bool all_fail_statically(const std::vector<ModelLevelResult>& results)
@@ -227,7 +211,7 @@ std::string choice_sentence(const std::vector<ModelLevelResult>& results, const 
     return fmt::format(
         "Cheapest model level within {:.3g} %: {}, slip {:.4g} mm in {:.2g} s, {:.2g} % from the finest ({}, {:.2g} "
         "s).",
-        100.0 * tolerance, model_level_id(r.model_level), r.slip[j.motion] / mm, r.seconds, 100.0 * *j.model_levels[*j.choice].deviation,
+        100.0 * tolerance, model_level_id(r.model_level), r.slip(j.motion) / mm, r.seconds, 100.0 * *j.model_levels[*j.choice].deviation,
         model_level_id(top.model_level), top.seconds);
 }
 

@@ -275,7 +275,7 @@ ModelLevelKind kind_of(const ModelLevel& model_level)
     if (model_level.family == ModelLevelFamily::regression) return ModelLevelKind::regression;
     if (model_level.family == ModelLevelFamily::rigid) return ModelLevelKind::rigid;
     if (model_level.modes) return ModelLevelKind::reduced;
-    if (model_level.rock != ModelLevelRock::as_the_scene || model_level.wave_box != 1.0) return ModelLevelKind::other_rock;
+    if (!model_level.other_model.empty() || model_level.wave_box != 1.0) return ModelLevelKind::other_rock;
     if (model_level.tangential_stiffness || model_level.alpha || model_level.step == StepChoice::as_the_scene) return ModelLevelKind::variant;
     if (!model_level.element.empty()) return ModelLevelKind::quadratic;
     return model_level.water == ModelLevelWater::acoustic ? ModelLevelKind::acoustic : ModelLevelKind::finite_elements;

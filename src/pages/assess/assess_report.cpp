@@ -40,7 +40,7 @@ Cell cell_in_mm(const std::optional<double>& slip)
 }
 
 /// "no uplift": what the narrow margin of a chart has room for.
-std::string short_name(const AssumptionRun& run)
+std::string short_name(const MotionOutcome& run)
 {
     constexpr std::string_view long_word = "without ";
     return run.what.starts_with(long_word) ? "no " + run.what.substr(long_word.size()) : run.what;
@@ -54,19 +54,19 @@ Chart level_chart(const Assessment& a)
     chart.y = {"slip", "mm", Scale::asinh, 0.1};
     chart.height = 380;
     for (const SlipLevel level : slip_levels) chart.x.categories.push_back(word(level));
-    for (const AssumptionRun& run : a.assumptions) chart.x.categories.push_back(short_name(run));
+    for (const MotionOutcome& run : a.assumptions) chart.x.categories.push_back(short_name(run));
     std::vector<std::string> records;
-    for (const LevelSlip& l : a.levels)
+    for (const MotionOutcome& l : a.levels)
         if (std::find(records.begin(), records.end(), l.record) == records.end()) records.push_back(l.record);
     for (const std::string& record : records) {
         Curve curve{record, {}, {}, {}, {}, Mark::points, Weight::normal, -1};
         for (std::size_t i = 0; i < slip_levels.size(); ++i)
-            for (const LevelSlip& l : a.levels)
-                if (l.record == record && l.level == slip_levels[i] && l.slip) {
+            for (const MotionOutcome& l : a.levels)
+                if (l.record == record && l.level == slip_levels[i] && l.largest_slip) {
                     curve.x.push_back(static_cast<double>(i));
-                    curve.y.push_back(in_mm(l.slip));
-                    curve.low.push_back(in_mm(l.low ? l.low : l.slip));
-                    curve.high.push_back(in_mm(l.high ? l.high : l.slip));
+                    curve.y.push_back(in_mm(l.largest_slip));
+                    curve.low.push_back(in_mm(l.low ? l.low : l.largest_slip));
+                    curve.high.push_back(in_mm(l.high ? l.high : l.largest_slip));
                 }
         chart.curves.push_back(std::move(curve));
     }
@@ -79,9 +79,9 @@ Chart level_chart(const Assessment& a)
     }
     Curve changed{"finite elements, one assumption changed", {}, {}, {}, {}, Mark::points, Weight::normal, -1};
     for (std::size_t i = 0; i < a.assumptions.size(); ++i)
-        if (a.assumptions[i].slip) {
+        if (a.assumptions[i].largest_slip) {
             changed.x.push_back(static_cast<double>(slip_levels.size() + i));
-            changed.y.push_back(in_mm(a.assumptions[i].slip));
+            changed.y.push_back(in_mm(a.assumptions[i].largest_slip));
         }
     if (!changed.x.empty()) chart.curves.push_back(std::move(changed));
     if (const auto& allowable = a.ready.given.criteria.allowable_slip)
@@ -96,10 +96,10 @@ Drawing assumption_bars(const Assessment& a)
 {
     const double full = a.recommended ? a.recommended->slip : 0.0;
     std::vector<Bar> bars;
-    for (const AssumptionRun& run : a.assumptions) {
+    for (const MotionOutcome& run : a.assumptions) {
         Bar bar{short_name(run), {}, 0.0, word(run.status), false};
-        if (run.slip) {
-            bar.value = (*run.slip - full) / mm;
+        if (run.largest_slip) {
+            bar.value = (*run.largest_slip - full) / mm;
             bar.words = fmt::format("{:+.4g} mm", *bar.value);
         }
         bars.push_back(std::move(bar));
@@ -177,15 +177,15 @@ std::optional<Table> governing_planes(const Assessment& a)
 
 Table level_table(const Assessment& a)
 {
-    using L = LevelSlip;
+    using L = MotionOutcome;
     return table_of<L>(
         "Slip by level, the worse polarity",
         {{in_brief({"record", "record"}), &L::record},
          {in_brief({"level", "level"}), [](const L& l) { return word(l.level); }},
-         {in_brief({"how", "how"}), &L::how},
+         {in_brief({"how", "how"}), &L::what},
          {in_brief({"polarity", "polarity"}), [](const L& l) { return l.polarity ? Cell(std::int64_t{l.polarity}) : Cell(); }},
          {in_brief({"status", "status"}), [](const L& l) { return word(l.status); }},
-         {ranking({"slip_mm", "largest slip", "mm"}), [](const L& l) { return cell_in_mm(l.slip); }},
+         {ranking({"slip_mm", "largest slip", "mm"}), [](const L& l) { return cell_in_mm(l.largest_slip); }},
          {in_brief({"low_mm", "from", "mm"}), [](const L& l) { return cell_in_mm(l.low); }},
          {in_brief({"high_mm", "to", "mm"}), [](const L& l) { return cell_in_mm(l.high); }}},
         a.levels,
@@ -195,14 +195,14 @@ Table level_table(const Assessment& a)
 
 Table assumption_table(const Assessment& a)
 {
-    using R = AssumptionRun;
+    using R = MotionOutcome;
     const double full = a.recommended ? a.recommended->slip : std::nan("");
     return table_of<R>("Finite elements with one assumption changed",
                        {{in_brief({"assumption", "assumption"}), &R::what},
                         {in_brief({"status", "status"}), [](const R& r) { return word(r.status); }},
-                        {in_brief({"slip_mm", "largest slip", "mm"}), [](const R& r) { return cell_in_mm(r.slip); }},
+                        {in_brief({"slip_mm", "largest slip", "mm"}), [](const R& r) { return cell_in_mm(r.largest_slip); }},
                         {ranking({"change_mm", "change", "mm"}),
-                         [&](const R& r) { return r.slip ? finite_cell(*r.slip - full, mm) : Cell(); }}},
+                         [&](const R& r) { return r.largest_slip ? finite_cell(*r.largest_slip - full, mm) : Cell(); }}},
                        a.assumptions, {"on the worst record and its polarity, without a second mesh."});
 }
 
@@ -418,21 +418,21 @@ std::vector<std::string> disagreement_sentences(const Assessment& a)
 {
     std::vector<std::string> list;
     for (const Disagreement& d : a.disagreements) {
-        const double ratio = *d.lower.slip > 0.0 ? *d.higher.slip / *d.lower.slip : 0.0;
+        const double ratio = *d.lower.largest_slip > 0.0 ? *d.higher.largest_slip / *d.lower.largest_slip : 0.0;
         std::string s = fmt::format(
             "{} give{} {}, {} {}{}.", word(d.lower.level),
             d.lower.level == SlipLevel::regressions || d.lower.level == SlipLevel::finite_elements ? "" : "s",
-            millimetres(*d.lower.slip), word(d.higher.level), millimetres(*d.higher.slip),
+            millimetres(*d.lower.largest_slip), word(d.higher.level), millimetres(*d.higher.largest_slip),
             ratio > 0.0 ? fmt::format(", {:.3g} times as much", ratio) : "");
         s.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(s.front())));
         if (!d.closest)
             s += " Which assumption does it was not run.";
         else if (d.explains)
             s += fmt::format(" The assumption that does it: {}. With it the finite elements give {}.", d.closest->what,
-                             millimetres(*d.closest->slip));
+                             millimetres(*d.closest->largest_slip));
         else
             s += fmt::format(" No single assumption that was run does it; the nearest, {}, gives {}.", d.closest->what,
-                             millimetres(*d.closest->slip));
+                             millimetres(*d.closest->largest_slip));
         list.push_back(std::move(s));
     }
     return list;
@@ -442,17 +442,17 @@ std::vector<std::string> mover_sentences(const Assessment& a)
 {
     std::vector<std::string> list;
     if (a.recommended && a.recommended->level == SlipLevel::finite_elements) {
-        const AssumptionRun* most = nullptr;
+        const MotionOutcome* most = nullptr;
         const double full = a.recommended->slip;
-        for (const AssumptionRun& run : a.assumptions)
-            if (run.slip && (!most || std::abs(*run.slip - full) > std::abs(*most->slip - full))) most = &run;
+        for (const MotionOutcome& run : a.assumptions)
+            if (run.largest_slip && (!most || std::abs(*run.largest_slip - full) > std::abs(*most->largest_slip - full))) most = &run;
         if (most)
             list.push_back(fmt::format("Finite elements: of {} assumptions changed one at a time, {} moves the answer "
                                        "most: {} in place of {} ({}).",
-                                       a.assumptions.size(), most->what, millimetres(*most->slip), millimetres(full),
-                                       percent_of(*most->slip, full)));
-        for (const AssumptionRun& run : a.assumptions)
-            if (!run.slip) list.push_back(fmt::format("Finite elements, {}: {}.", run.what, word(run.status)));
+                                       a.assumptions.size(), most->what, millimetres(*most->largest_slip), millimetres(full),
+                                       percent_of(*most->largest_slip, full)));
+        for (const MotionOutcome& run : a.assumptions)
+            if (!run.largest_slip) list.push_back(fmt::format("Finite elements, {}: {}.", run.what, word(run.status)));
     }
     if (std::string s = rigid_mover(a); !s.empty()) list.push_back(std::move(s));
     return list;

@@ -46,8 +46,8 @@ std::string came_out(AssessPart part, const Assessment& a)
 {
     const auto slip = [&](SlipLevel level) {
         std::optional<double> most;
-        for (const LevelSlip& l : a.levels)
-            if (l.level == level && l.slip) most = std::max(most.value_or(0.0), *l.slip);
+        for (const MotionOutcome& l : a.levels)
+            if (l.level == level && l.largest_slip) most = std::max(most.value_or(0.0), *l.largest_slip);
         return most ? fmt::format("{:.4g} mm", *most / mm) : std::string("no slip");
     };
     const auto ran = [&](const auto& there, const std::string& text) { return there ? text : std::string("not run"); };
