@@ -11,7 +11,6 @@
 #include "verification/exact/reference_scene.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <functional>
 #include <random>
@@ -39,9 +38,9 @@ double seconds(const std::function<void()>& work)
 {
     double best = 1e9;
     for (int i = 0; i < 7; ++i) {
-        const auto start = std::chrono::steady_clock::now();
+        const ProcessorClock clock;
         work();
-        best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        best = std::min(best, clock.seconds());
     }
     return best;
 }
