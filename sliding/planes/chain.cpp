@@ -36,11 +36,13 @@ Point moved(const ChainBlock& b, Point v)
 }
 
 /// Directions, rates q and senses of the interfaces: what of the chain does not depend on F.
-ChainLaw law_with_rates(const Chain& chain)
+void set_rates(const Chain& chain, ChainLaw& law)
 {
-    ChainLaw law;
-    for (const ChainBlock& block : chain.blocks) law.of_blocks.push_back(directions(block));
-    for (const ChainInterface& face : chain.interfaces) law.of_faces.push_back(directions(face));
+    law.of_blocks.resize(chain.blocks.size());
+    law.of_faces.resize(chain.interfaces.size());
+    for (std::size_t i = 0; i < chain.blocks.size(); ++i) law.of_blocks[i] = directions(chain.blocks[i]);
+    for (std::size_t j = 0; j < chain.interfaces.size(); ++j) law.of_faces[j] = directions(chain.interfaces[j]);
+    law.path_locked = false;
     law.rates.assign(chain.blocks.size(), 1.0);
     law.senses.assign(chain.interfaces.size(), 0);
     double rate = 1.0; // without dilation, for the senses
@@ -57,8 +59,6 @@ ChainLaw law_with_rates(const Chain& chain)
     }
     const double dam = law.rates[chain.dam];
     for (double& q : law.rates) q /= dam;
-    law.locked = law.path_locked;
-    return law;
 }
 
 /// z = ν - σ μ e of an interface.
@@ -67,57 +67,79 @@ Point transfer(const ChainInterface& face, const ChainLaw::FaceDirections& of, i
     return sum(of.downstream, -sense * face.friction / over, of.up);
 }
 
-void set_weights(const Chain& chain, double over, ChainLaw& law)
+/// w of each block. @param strengths  a chain as long, whose strengths take the place of the chain's
+/// @returns false: locked
+inline bool set_weights(const Chain& chain, const Chain& strengths, double over, const ChainLaw& law, std::vector<Point>& weights)
 {
-    law.weights.clear();
+    weights.resize(chain.blocks.size());
     double scale = 1.0;
-    for (std::size_t i = 0; i < chain.blocks.size(); ++i) {
-        const Point w = sum(law.of_blocks[i].along, chain.blocks[i].friction / over, law.of_blocks[i].normal);
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        const Point w = sum(law.of_blocks[i].along, strengths.blocks[i].friction / over, law.of_blocks[i].normal);
         if (i > 0) {
-            const Point z = transfer(chain.interfaces[i - 1], law.of_faces[i - 1], law.senses[i - 1], over);
-            const double here = dot(w, z), before = dot(law.weights.back(), z);
-            if (!(here > 0.0) || !(before > 0.0)) {
-                law.locked = true;
-                return;
-            }
+            const Point z = transfer(strengths.interfaces[i - 1], law.of_faces[i - 1], law.senses[i - 1], over);
+            const double here = dot(w, z), before = dot(weights[i - 1], z);
+            if (!(here > 0.0) || !(before > 0.0)) return false;
             scale = before / here;
         }
-        law.weights.push_back(scaled(scale, w));
+        weights[i] = scaled(scale, w);
     }
     // The scale of the dam's block is 1.
-    const double unit = dot(law.weights[chain.dam], law.of_blocks[chain.dam].along);
-    for (Point& w : law.weights) w = scaled(1.0 / unit, w);
+    const double unit = dot(weights[chain.dam], law.of_blocks[chain.dam].along);
+    for (Point& w : weights) w = scaled(1.0 / unit, w);
+    return true;
+}
+
+/// @param whole  false: without M* and D_v, which a yield at a_v = 0 does not need @param strengths, weights  as of set_weights()
+template <bool whole>
+inline ChainEquation equation_of(const Chain& chain, const Chain& strengths, double over, const ChainLaw& law, std::vector<Point>& weights)
+{
+    ChainEquation equation;
+    equation.locked = law.path_locked || !set_weights(chain, strengths, over, law, weights);
+    if (equation.locked) return equation;
+    for (std::size_t i = 0; i < chain.blocks.size(); ++i) {
+        const ChainBlock& b = chain.blocks[i];
+        const auto& [t, n, movement] = law.of_blocks[i];
+        const double cohesion = strengths.blocks[i].cohesion;
+        const Point w = weights[i], weight{0.0, -b.mass * chain.gravity};
+        equation.drive += dot(w, moved(b, {1.0, 0.0}));
+        if constexpr (whole) {
+            equation.mass += law.rates[i] * dot(w, moved(b, movement));
+            equation.per_a_v -= dot(w, moved(b, {0.0, 1.0}));
+        }
+        equation.constant += dot(w, sum(sum(sum(b.force, 1.0, weight), b.uplift, n), -cohesion / over * b.length, t));
+    }
+    for (std::size_t j = 0; j < chain.interfaces.size(); ++j) {
+        const ChainInterface& face = chain.interfaces[j];
+        const auto& [up, out] = law.of_faces[j];
+        const double cohesion = strengths.interfaces[j].cohesion;
+        const Point force = sum(scaled(face.water, out), -law.senses[j] * cohesion / over * face.length, up);
+        equation.constant += dot(sum(weights[j + 1], -1.0, weights[j]), force);
+    }
+    return equation;
 }
 
 } // namespace
 
 void set_strengths(const Chain& chain, double over, ChainLaw& law)
 {
-    law.drive = law.mass = law.constant = law.per_a_v = 0.0;
-    law.locked = law.path_locked;
-    if (!law.locked) set_weights(chain, over, law);
-    if (law.locked) return;
-    for (std::size_t i = 0; i < chain.blocks.size(); ++i) {
-        const ChainBlock& b = chain.blocks[i];
-        const auto& [t, n, movement] = law.of_blocks[i];
-        const Point w = law.weights[i], weight{0.0, -b.mass * chain.gravity};
-        law.drive += dot(w, moved(b, {1.0, 0.0}));
-        law.mass += law.rates[i] * dot(w, moved(b, movement));
-        law.per_a_v -= dot(w, moved(b, {0.0, 1.0}));
-        law.constant += dot(w, sum(sum(sum(b.force, 1.0, weight), b.uplift, n), -b.cohesion / over * b.length, t));
-    }
-    for (std::size_t j = 0; j < chain.interfaces.size(); ++j) {
-        const ChainInterface& face = chain.interfaces[j];
-        const auto& [up, out] = law.of_faces[j];
-        const Point force = sum(scaled(face.water, out), -law.senses[j] * face.cohesion / over * face.length, up);
-        law.constant += dot(sum(law.weights[j + 1], -1.0, law.weights[j]), force);
-    }
+    static_cast<ChainEquation&>(law) = equation_of<true>(chain, chain, over, law, law.weights);
+}
+
+void set_law(const Chain& chain, double over, ChainLaw& law)
+{
+    set_rates(chain, law);
+    set_strengths(chain, over, law);
+}
+
+double yield_with(const Chain& strengths, const Chain& chain, const ChainLaw& law, std::vector<Point>& weights)
+{
+    return equation_of<false>(chain, strengths, 1.0, law, weights).yield();
 }
 
 ChainLaw chain_law(const Chain& chain, double over)
 {
-    ChainLaw law = law_with_rates(chain);
-    set_strengths(chain, over, law);
+    ChainLaw law;
+    set_law(chain, over, law);
     return law;
 }
 
@@ -127,11 +149,15 @@ bool ChainForces::stands() const
     return std::all_of(normal.begin(), normal.end(), holds) && std::all_of(thrust.begin(), thrust.end(), holds);
 }
 
-ChainForces chain_forces(const Chain& chain, const ChainLaw& law, double a_h, double a_v, double slip_accel, double over)
+namespace {
+
+/// Equilibrium of one block after the other, with the thrust of the one before:
+/// N (n - μ t) - E z = A a - F - W - U n + c L t - incoming + water and cohesion of the next interface.
+/// @param on_block  takes N and the resistance of each block @param on_face  E and X of the interface after it
+template <class OnBlock, class OnFace>
+void find_forces(const Chain& chain, const ChainLaw& law, double a_h, double a_v, double slip_accel, double over, OnBlock&& on_block,
+                 OnFace&& on_face)
 {
-    // Equilibrium of one block after the other, with the thrust of the one before:
-    // N (n - μ t) - E z = A a - F - W - U n + c L t - incoming + water and cohesion of the next interface.
-    ChainForces forces;
     Point incoming;
     for (std::size_t i = 0; i < chain.blocks.size(); ++i) {
         const ChainBlock& b = chain.blocks[i];
@@ -152,21 +178,56 @@ ChainForces chain_forces(const Chain& chain, const ChainLaw& law, double a_h, do
             const double determinant = -base.x * z.y + base.y * z.x;
             normal_force = (-right.x * z.y + right.y * z.x) / determinant;
             const double thrust = (base.x * right.y - base.y * right.x) / determinant;
-            forces.thrust.push_back(thrust);
-            forces.shear.push_back(law.senses[i] *
-                                   (face.cohesion / over * face.length + face.friction / over * thrust));
+            on_face(thrust, law.senses[i] * (face.cohesion / over * face.length + face.friction / over * thrust));
             incoming = sum(scaled(thrust, z), 1.0, fixed);
         }
-        forces.normal.push_back(normal_force);
-        forces.resistance.push_back(cohesion + friction * normal_force);
+        on_block(normal_force, cohesion + friction * normal_force);
     }
+}
+
+} // namespace
+
+ChainForces chain_forces(const Chain& chain, const ChainLaw& law, double a_h, double a_v, double slip_accel, double over)
+{
+    ChainForces forces;
+    const auto on_block = [&](double normal, double resistance) {
+        forces.normal.push_back(normal);
+        forces.resistance.push_back(resistance);
+    };
+    const auto on_face = [&](double thrust, double shear) {
+        forces.thrust.push_back(thrust);
+        forces.shear.push_back(shear);
+    };
+    find_forces(chain, law, a_h, a_v, slip_accel, over, on_block, on_face);
     return forces;
+}
+
+const char* word(ChainStatus status)
+{
+    switch (status) {
+    case ChainStatus::stands: return "stands";
+    case ChainStatus::locked: return "locked";
+    case ChainStatus::floats: return "floats";
+    case ChainStatus::opens: return "opens";
+    }
+    return "";
+}
+
+ChainStatus chain_status(const Chain& chain, const ChainLaw& law, double a_h, double a_v, double over)
+{
+    if (law.locked || !std::isfinite(a_h)) return ChainStatus::locked;
+    bool floats = false, opens = false;
+    find_forces(
+        chain, law, a_h, a_v, 0.0, over, [&](double normal, double) { floats = floats || normal < 0.0; },
+        [&](double thrust, double) { opens = opens || thrust < 0.0; });
+    return floats ? ChainStatus::floats : opens ? ChainStatus::opens : ChainStatus::stands;
 }
 
 double chain_factor(const Chain& chain, double a_h, double a_v)
 {
-    ChainLaw law = law_with_rates(chain);
-    if (law.locked) return infinite;
+    ChainLaw law;
+    set_rates(chain, law);
+    if (law.path_locked) return infinite;
     const auto missing = [&](double factor) { // to sliding at this F; falls as F grows
         set_strengths(chain, factor, law);
         return law.yield(a_v) - a_h;

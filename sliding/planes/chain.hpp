@@ -51,11 +51,23 @@ struct Chain {
 };
 
 /// The chain as one equation, M* s'' = H a_h + D + D_v a_v, scaled so that the weight of the dam's block is t + μ n.
-struct ChainLaw {
+struct ChainEquation {
     double drive = 0.0;                    ///< H [kg/m]; not above 0, or locked: no acceleration makes it slide
     double mass = 0.0;                     ///< M* [kg/m]
     double constant = 0.0, per_a_v = 0.0;  ///< D [N/m], D_v [kg/m]
     bool locked = false;                   ///< a block is wedged in: α + φ + δ >= 90° at an interface
+
+    /// Yield acceleration at a vertical acceleration [m/s^2]; infinite where locked.
+    double yield(double a_v = 0.0) const
+    {
+        return locked || !(drive > 0.0) ? std::numeric_limits<double>::infinity() : -(constant + per_a_v * a_v) / drive;
+    }
+    /// H/M*: acceleration of the slip over that of the ground above the yield [-].
+    double factor() const { return locked ? 0.0 : drive / mass; }
+};
+
+/// With what it was made of.
+struct ChainLaw : ChainEquation {
     std::vector<Point> weights;            ///< w of each block, scaled [-]
     std::vector<double> rates;             ///< q, speed over its segment over that of the dam's block [-]
     std::vector<int> senses;               ///< σ of each interface: 1 where the downstream side rises against it, -1, 0
@@ -69,21 +81,19 @@ struct ChainLaw {
     std::vector<BlockDirections> of_blocks;
     std::vector<FaceDirections> of_faces;
     bool path_locked = false; ///< whatever the strengths: dilation lets a block go nowhere
-
-    /// Yield acceleration at a vertical acceleration [m/s^2]; infinite where locked.
-    double yield(double a_v = 0.0) const
-    {
-        return locked || !(drive > 0.0) ? std::numeric_limits<double>::infinity() : -(constant + per_a_v * a_v) / drive;
-    }
-    /// H/M*: acceleration of the slip over that of the ground above the yield [-].
-    double factor() const { return locked ? 0.0 : drive / mass; }
 };
 
 /// @param over  F, which all strengths are divided by, those of interfaces too [-]
 ChainLaw chain_law(const Chain& chain, double over = 1.0);
+/// The same in the memory of another law.
+void set_law(const Chain& chain, double over, ChainLaw& law);
 
 /// Makes `law` that of the same chain with other strengths: directions, rates and senses stay, dilation must be as it was.
 void set_strengths(const Chain& chain, double over, ChainLaw& law);
+
+/// The yield that the chain would have with the strengths of another one, as long and with the same dilation.
+/// @param law  of the chain @param weights  memory
+double yield_with(const Chain& strengths, const Chain& chain, const ChainLaw& law, std::vector<Point>& weights);
 
 /// What acts between the blocks and on their segments.
 struct ChainForces {
@@ -98,6 +108,16 @@ struct ChainForces {
 /// @param a_h, a_v  ground acceleration [m/s^2]; @param slip_accel  s'' [m/s^2]; 0 at the yield
 ChainForces chain_forces(const Chain& chain, const ChainLaw& law, double a_h, double a_v, double slip_accel = 0.0,
                          double over = 1.0);
+
+enum class ChainStatus {
+    stands,
+    locked, ///< no acceleration moves it: its strengths wedge the blocks in
+    floats, ///< a block would have to pull on its segment
+    opens   ///< an interface would have to pull: what is upstream of it stays behind
+};
+/// @param over  F, as of `law`
+ChainStatus chain_status(const Chain& chain, const ChainLaw& law, double a_h, double a_v, double over = 1.0);
+const char* word(ChainStatus status);
 
 /// Factor of safety: the largest F with yield(F) = a_h, one F on all strengths. With smooth interfaces the wedge method of
 /// USACE EM 1110-2-2200 and of CADAM3D, with friction in them Sarma's (1979).

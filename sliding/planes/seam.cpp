@@ -6,10 +6,12 @@
 #include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 #include "sliding/loads/added_mass_integral.hpp"
+#include "sliding/planes/yield_scan.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <tuple>
 
 namespace damslip::sliding {
@@ -33,12 +35,12 @@ double distance(Point a, Point b)
 std::optional<Point> meets(const Polyline& surface, Point from, double cosine, double sine)
 {
     constexpr double far = 1e5;
-    Polyline all = surface;
-    all.insert(all.begin(), {std::min(surface.front().x, from.x) - far, surface.front().y});
-    all.push_back({std::max(surface.back().x, from.x) + far, surface.back().y});
+    const Point before{std::min(surface.front().x, from.x) - far, surface.front().y},
+        after{std::max(surface.back().x, from.x) + far, surface.back().y};
     std::optional<double> nearest;
-    for (std::size_t i = 1; i < all.size(); ++i) {
-        const Point a = all[i - 1], along{all[i].x - a.x, all[i].y - a.y}, to{a.x - from.x, a.y - from.y};
+    for (std::size_t i = 0; i <= surface.size(); ++i) {
+        const Point a = i > 0 ? surface[i - 1] : before, b = i < surface.size() ? surface[i] : after,
+                    along{b.x - a.x, b.y - a.y}, to{a.x - from.x, a.y - from.y};
         const double determinant = cosine * along.y - sine * along.x;
         if (determinant == 0.0) continue;
         const double reach = (to.x * along.y - to.y * along.x) / determinant;
@@ -52,7 +54,9 @@ std::optional<Point> meets(const Polyline& surface, Point from, double cosine, d
 /// Points of the surface from one to the other of its points, in the order of x.
 Polyline surface_between(const Polyline& surface, Point from, Point to)
 {
-    Polyline part{from};
+    Polyline part;
+    part.reserve(surface.size() + 2);
+    part.push_back(from);
     for (const Point p : surface)
         if (p.x > from.x && p.x < to.x) part.push_back(p);
     if (part.back() != to) part.push_back(to);
@@ -98,7 +102,7 @@ std::optional<double> drains_on(const Scene& scene, const Polyline& surface, con
     return std::nullopt;
 }
 
-/// Pressure along the path: heads linear between the distances `at` [m], never below zero.
+/// Pressure along the path, never below zero. @param heads  x: distance, ascending [m]; linear between them
 PressureProfile pressure_along(const Polyline& path, const std::vector<Point>& heads, double unit_weight)
 {
     const auto head_at = [&](double s) {
@@ -107,35 +111,28 @@ PressureProfile pressure_along(const Polyline& path, const std::vector<Point>& h
                 return heads[i - 1].y + (heads[i].y - heads[i - 1].y) * (s - heads[i - 1].x) / (heads[i].x - heads[i - 1].x);
         return heads.back().y;
     };
-    PressureProfile profile;
+    PressureProfile wet; // suction is no pressure: corners where the line passes zero
+    ProfilePoint last;   // with its suction
+    wet.points.reserve(path.size() + 2 * heads.size());
     const auto add = [&](double s, double y) {
-        profile.points.push_back({s, unit_weight * (head_at(s) - y)});
+        if (!wet.points.empty() && s <= last.distance) return;
+        const ProfilePoint p{s, unit_weight * (head_at(s) - y)}, q = last;
+        if (!wet.points.empty() && (q.pressure < 0.0) != (p.pressure < 0.0) && q.pressure != 0.0 && p.pressure != 0.0)
+            wet.points.push_back(
+                {q.distance + (p.distance - q.distance) * q.pressure / (q.pressure - p.pressure), 0.0});
+        wet.points.push_back({p.distance, std::max(0.0, p.pressure)});
+        last = p;
     };
     double start = 0.0;
     for (std::size_t i = 1; i < path.size(); ++i) {
         const Point a = path[i - 1], b = path[i];
         const double length = distance(a, b);
-        std::vector<double> at{start, start + length};
+        const auto add_at = [&](double s) { add(s, a.y + (b.y - a.y) * (s - start) / length); };
+        add_at(start);
         for (const Point& h : heads)
-            if (h.x > start && h.x < start + length) at.push_back(h.x);
-        std::sort(at.begin(), at.end());
-        for (const double s : at) {
-            if (!profile.points.empty() && s <= profile.points.back().distance) continue;
-            add(s, a.y + (b.y - a.y) * (s - start) / length);
-        }
+            if (h.x > start && h.x < start + length) add_at(h.x);
+        add_at(start + length);
         start += length;
-    }
-    // Suction is no pressure: corners where the line passes zero.
-    PressureProfile wet;
-    for (std::size_t i = 0; i < profile.points.size(); ++i) {
-        const ProfilePoint p = profile.points[i];
-        if (i > 0) {
-            const ProfilePoint q = profile.points[i - 1];
-            if ((q.pressure < 0.0) != (p.pressure < 0.0) && q.pressure != 0.0 && p.pressure != 0.0)
-                wet.points.push_back(
-                    {q.distance + (p.distance - q.distance) * q.pressure / (q.pressure - p.pressure), 0.0});
-        }
-        wet.points.push_back({p.distance, std::max(0.0, p.pressure)});
     }
     return wet;
 }
@@ -153,7 +150,9 @@ PressureProfile seam_pressure(const Scene& scene, const Seam& seam, const Polyli
             profile.points.push_back({p.x, p.y * unit_weight * std::max(0.0, ends.entry - path.front().y)});
         return profile;
     }
-    std::vector<Point> heads{{0.0, ends.entry}};
+    std::vector<Point> heads;
+    heads.reserve(3);
+    heads.push_back({0.0, ends.entry});
     const std::optional<double> at = seam.uplift == UpliftModel::drains ? drains_on(scene, surface, path) : std::nullopt;
     if (at && *at > 0.0 && *at < length && drains == DrainState::effective) {
         // EM 1110-2-2200: H3 = H2 + (1 - E)(H1 - H2)(L - X)/L; a gallery above H2 takes its place.
@@ -170,7 +169,15 @@ PressureProfile seam_pressure(const Scene& scene, const Seam& seam, const Polyli
 
 double force_on(const PressureProfile& pressure, double from, double to)
 {
-    return pressure.empty() ? 0.0 : resultant(PressureProfile{part(pressure, from, to)}).force;
+    double sum = 0.0; // as resultant() of part(), which allocate memory
+    for (std::size_t i = 0; i + 1 < pressure.points.size(); ++i) {
+        const ProfilePoint &a = pressure.points[i], &b = pressure.points[i + 1];
+        if (b.distance <= from || a.distance >= to || b.distance == a.distance) continue;
+        const double left = std::max(a.distance, from), right = std::min(b.distance, to);
+        sum += 0.5 * (right - left) * ((left > a.distance ? pressure_at(pressure, left) : a.pressure) +
+                                       (right < b.distance ? pressure_at(pressure, right) : b.pressure));
+    }
+    return sum;
 }
 
 /// Water pressure along an interface from its foot up, hydrostatic above it [N/m]; its first moment about the foot [N].
@@ -186,23 +193,7 @@ FaceWater water_in(double foot_pressure, double unit_weight, double length, doub
     return {0.5 * (foot_pressure + top) * wet, wet * wet * (foot_pressure + 2.0 * top) / 6.0};
 }
 
-double area_of(const Polyline& polygon)
-{
-    return polygon.size() < 3 ? 0.0 : area(Section{polygon});
-}
-
 } // namespace
-
-const char* word(ChainStatus status)
-{
-    switch (status) {
-    case ChainStatus::stands: return "stands";
-    case ChainStatus::locked: return "locked";
-    case ChainStatus::floats: return "floats";
-    case ChainStatus::opens: return "opens";
-    }
-    return "";
-}
 
 /// The dam on the rock and the seam below it, whatever the wedge and the strengths.
 struct SeamGround::Rock {
@@ -211,6 +202,7 @@ struct SeamGround::Rock {
     Point centre;
     AddedMassIntegral water;
     Polyline surface, path; ///< of the rock; of the seam
+    YieldScan yields;       ///< of the scan
 
     Rock(const Scene& scene, const Seam& seam)
         : mass(dam_mass(scene)), centre(centroid(scene.section)),
@@ -246,25 +238,90 @@ void put_strengths(const Seam& seam, const SeamState& state, InterfaceModel kind
     }
 }
 
+/// Where the plane of the wedge comes to the ground.
+Point exit_of(const Rock& on_rock, const Seam& seam, double angle)
+{
+    const std::optional<Point> exit = meets(on_rock.surface, on_rock.path.back(), std::cos(angle), std::sin(angle));
+    if (!exit)
+        refuse(seam, fmt::format("the plane of its wedge at {:.4g} deg does not reach the ground.", angle / degree), "a steeper angle",
+               "raise seam.wedge.angle_deg");
+    return *exit;
+}
+
+/// Water levels at the ends of the path. @param top  of the last block, at its downstream end
+Heads heads_of(const Scene& scene, const SeamModel& model, Point top)
+{
+    return {scene.reservoir ? scene.reservoir->level : model.path.front().y,
+            std::max(top.y, scene.tailwater ? scene.tailwater->level : -unbounded)};
+}
+
+/// Block i with all that acts on it but the water below it. @param before, after  tops of the faces that it lies between
+void put_block(const Scene& scene, const Rock& on_rock, const Seam& seam, std::size_t i, Point before, Point after, SeamModel& model)
+{
+    const double unit_weight = water_unit_weight(scene);
+    const Point first = heel(scene.section), last = toe(scene.section), a = model.path[i], b = model.path[i + 1];
+    const bool ends = i + 2 == model.path.size(),
+               free_face = ends && model.path.size() == on_rock.path.size() && seam.exit != SeamExit::daylight;
+    ChainBlock& block = model.chain.blocks[i];
+    block.length = distance(a, b);
+    block.dip = std::atan2(a.y - b.y, b.x - a.x);
+    const Polyline top = surface_between(on_rock.surface, before, after);
+    Section rock;
+    rock.polygon = std::move(model.outlines[i]);
+    rock.polygon.assign({a, b});
+    for (auto p = top.rbegin(); p != top.rend(); ++p)
+        if (rock.polygon.back() != *p && rock.polygon.front() != *p) rock.polygon.push_back(*p);
+    const double rock_mass = scene.foundation->material.density * (rock.polygon.size() < 3 ? 0.0 : area(rock));
+    block.mass = rock_mass;
+    Point centre = rock_mass > 0.0 ? centroid(rock) : Point{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
+    Force load;
+    add_ground_water(scene, top, load);
+    if (i == 0 && before != a && scene.reservoir)
+        load += hydrostatic_load({a, before}, DamSide::right, scene.reservoir->level, unit_weight).total();
+    if (free_face) load += hydrostatic_load({b, after}, DamSide::left, heads_of(scene, model, after).exit, unit_weight).total();
+    if (before.x <= first.x && after.x >= last.x) {
+        model.chain.dam = i;
+        for (const Force& own : on_rock.loads) load += own;
+        block.mass += on_rock.mass;
+        centre = {(rock_mass * centre.x + on_rock.mass * on_rock.centre.x) / block.mass,
+                  (rock_mass * centre.y + on_rock.mass * on_rock.centre.y) / block.mass};
+        block.added_mass = {on_rock.water.xx, on_rock.water.xy, on_rock.water.yy};
+        model.water_per_a_h = hydrodynamic_force(on_rock.water, -1.0, 0.0).total();
+    }
+    block.force = {load.x, load.y};
+    load += force_at(centre, 0.0, -block.mass * scene.gravity);
+    model.outlines[i] = std::move(rock.polygon);
+    model.loads[i] = load;
+    model.centroids[i] = centre;
+}
+
+/// The water below the blocks and in the faces between them. @param top  as of heads_of()
+void put_water(const Scene& scene, const Rock& on_rock, const Seam& seam, DrainState drains, Point top, SeamModel& model)
+{
+    model.pressure = seam_pressure(scene, seam, on_rock.surface, model.path, heads_of(scene, model, top), drains);
+    double start = 0.0;
+    for (std::size_t i = 0; i < model.chain.blocks.size(); ++i) {
+        ChainBlock& block = model.chain.blocks[i];
+        block.uplift = force_on(model.pressure, start, start + block.length);
+        start += block.length;
+        if (i == model.feet.size()) continue;
+        ChainInterface& face = model.chain.interfaces[i];
+        face.water = model.pressure.empty() ? 0.0
+                                            : water_in(pressure_at(model.pressure, start), water_unit_weight(scene), face.length,
+                                                       model.tops[i].y - model.feet[i].y)
+                                                  .force;
+    }
+}
+
 SeamModel model_of(const Scene& scene, const Rock& on_rock, const Seam& seam, std::optional<double> angle,
                    const SeamState& state = {}, std::optional<InterfaceModel> interface = std::nullopt)
 {
-    const double rock = scene.foundation->material.density, unit_weight = water_unit_weight(scene);
     const Polyline& surface = on_rock.surface;
-    const Point first = heel(scene.section), last = toe(scene.section);
-
     SeamModel model;
     model.path = on_rock.path;
-    const std::size_t segments_of_seam = model.path.size() - 1;
-    const bool free_face = !angle && seam.exit != SeamExit::daylight;
-    if (angle) {
-        const std::optional<Point> exit = meets(surface, model.path.back(), std::cos(*angle), std::sin(*angle));
-        if (!exit)
-            refuse(seam, fmt::format("the plane of its wedge at {:.4g} deg does not reach the ground.", *angle / degree),
-                   "a steeper angle", "raise seam.wedge.angle_deg");
-        model.path.push_back(*exit);
-    }
+    if (angle) model.path.push_back(exit_of(on_rock, seam, *angle));
     const std::size_t segments = model.path.size() - 1;
+    const bool free_face = !angle && seam.exit != SeamExit::daylight;
 
     // Tops of the faces between the blocks; the first and the last are the ends of the body.
     const double up = seam.interface.angle.value_or(0.5 * std::numbers::pi);
@@ -275,71 +332,35 @@ SeamModel model_of(const Scene& scene, const Rock& on_rock, const Seam& seam, st
         model.feet.push_back(model.path[j]);
         model.tops.push_back(*top);
         tops.push_back(*top);
+        ChainInterface& face = model.chain.interfaces.emplace_back();
+        face.angle = up;
+        face.length = distance(model.path[j], *top);
     }
     const Point exit = model.path.back();
     tops.push_back(free_face ? Point{exit.x, ground_level(surface, exit.x)} : exit);
 
-    Heads ends;
-    ends.entry = scene.reservoir ? scene.reservoir->level : model.path.front().y;
-    ends.exit = std::max(tops.back().y, scene.tailwater ? scene.tailwater->level : -unbounded);
-    model.pressure = seam_pressure(scene, seam, surface, model.path, ends, state.drains);
-
     model.chain.gravity = scene.gravity;
-    std::optional<std::size_t> dam;
-    double start = 0.0;
-    for (std::size_t i = 0; i < segments; ++i) {
-        const Point a = model.path[i], b = model.path[i + 1];
-        ChainBlock block;
-        block.length = distance(a, b);
-        block.dip = std::atan2(a.y - b.y, b.x - a.x);
-        block.uplift = force_on(model.pressure, start, start + block.length);
-        Polyline outline{a, b};
-        const Polyline top = surface_between(surface, tops[i], tops[i + 1]);
-        for (auto p = top.rbegin(); p != top.rend(); ++p)
-            if (outline.back() != *p && outline.front() != *p) outline.push_back(*p);
-        const double rock_mass = rock * area_of(outline);
-        block.mass = rock_mass;
-        Point centre = rock_mass > 0.0 ? centroid(Section{outline}) : Point{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
-        Force load;
-        add_ground_water(scene, top, load);
-        if (i == 0 && tops.front() != model.path.front() && scene.reservoir)
-            load += hydrostatic_load({model.path.front(), tops.front()}, DamSide::right, scene.reservoir->level, unit_weight).total();
-        if (i + 1 == segments && free_face)
-            load += hydrostatic_load({exit, tops.back()}, DamSide::left, ends.exit, unit_weight).total();
-        if (tops[i].x <= first.x && tops[i + 1].x >= last.x) {
-            dam = i;
-            for (const Force& own : on_rock.loads) load += own;
-            block.mass += on_rock.mass;
-            centre = {(rock_mass * centre.x + on_rock.mass * on_rock.centre.x) / block.mass,
-                      (rock_mass * centre.y + on_rock.mass * on_rock.centre.y) / block.mass};
-            block.added_mass = {on_rock.water.xx, on_rock.water.xy, on_rock.water.yy};
-            model.water_per_a_h = hydrodynamic_force(on_rock.water, -1.0, 0.0).total();
-        }
-        block.force = {load.x, load.y};
-        load += force_at(centre, 0.0, -block.mass * scene.gravity);
-        model.chain.blocks.push_back(block);
-        model.outlines.push_back(outline);
-        model.loads.push_back(load);
-        model.centroids.push_back(centre);
-        if (i + 1 < segments) {
-            ChainInterface face;
-            face.angle = up;
-            face.length = distance(b, tops[i + 1]);
-            face.water = model.pressure.empty()
-                             ? 0.0
-                             : water_in(pressure_at(model.pressure, start + block.length), unit_weight, face.length,
-                                        tops[i + 1].y - b.y)
-                                   .force;
-            model.chain.interfaces.push_back(face);
-        }
-        start += block.length;
-    }
-    if (!dam)
+    model.chain.blocks.resize(segments);
+    model.outlines.resize(segments);
+    model.loads.resize(segments);
+    model.centroids.resize(segments);
+    model.chain.dam = segments; // not yet found
+    for (std::size_t i = 0; i < segments; ++i) put_block(scene, on_rock, seam, i, tops[i], tops[i + 1], model);
+    if (model.chain.dam == segments)
         refuse(seam, "it bends under the dam, and the face between its blocks cuts the dam.",
                "kinks whose faces reach the ground outside of heel and toe", "move the kink, or give seam.interface.angle_deg");
-    model.chain.dam = *dam;
-    put_strengths(seam, state, interface.value_or(seam.interface.model), segments_of_seam, model.chain);
+    put_water(scene, on_rock, seam, state.drains, tops.back(), model);
+    put_strengths(seam, state, interface.value_or(seam.interface.model), on_rock.path.size() - 1, model.chain);
     return model;
+}
+
+/// Turns the plane of the wedge; the drains work. The water below all blocks follows the length of the path.
+/// @param model  with a wedge
+void set_angle(const Scene& scene, const Rock& on_rock, const Seam& seam, double angle, SeamModel& model)
+{
+    const Point exit = model.path.back() = exit_of(on_rock, seam, angle);
+    put_block(scene, on_rock, seam, model.path.size() - 2, model.tops.back(), exit, model);
+    put_water(scene, on_rock, seam, DrainState::effective, exit, model);
 }
 
 } // namespace
@@ -348,16 +369,6 @@ SeamModel seam_model(const Scene& scene, const Seam& seam, std::optional<double>
                      std::optional<InterfaceModel> interface)
 {
     return model_of(scene, Rock(scene, seam), seam, angle, state, interface);
-}
-
-ChainStatus chain_status(const Chain& chain, const ChainLaw& law, double a_h, double a_v, double over)
-{
-    if (law.locked || !std::isfinite(a_h)) return ChainStatus::locked;
-    const ChainForces forces = chain_forces(chain, law, a_h, a_v, 0.0, over);
-    const auto pulls = [](double force) { return force < 0.0; };
-    if (std::any_of(forces.normal.begin(), forces.normal.end(), pulls)) return ChainStatus::floats;
-    if (std::any_of(forces.thrust.begin(), forces.thrust.end(), pulls)) return ChainStatus::opens;
-    return ChainStatus::stands;
 }
 
 namespace {
@@ -475,14 +486,19 @@ WedgeTrial tried(double angle, const Chain& chain, const ChainLaw& law, const st
 
 } // namespace
 
-SeamGround::SeamGround(const Scene& scene, const Seam& seam) : rock_(std::make_shared<const Rock>(scene, seam)), seam_(seam)
+SeamGround::SeamGround(const Scene& scene, const Seam& seam) : seam_(seam)
 {
+    const auto rock = std::make_shared<Rock>(scene, seam);
+    rock_ = rock;
+    body_ = model_of(scene, *rock, seam, std::nullopt);
     if (!seam.wedge || seam.exit != SeamExit::wedge) return;
     for (const double angle : angles_of(*seam.wedge)) {
-        Scanned& s = scan_.emplace_back();
-        s.angle = angle;
-        s.chain = model_of(scene, *rock_, seam, angle).chain;
-        s.law = chain_law(s.chain);
+        if (scan_.empty())
+            with_wedge_ = model_of(scene, *rock, seam, angle);
+        else
+            set_angle(scene, *rock, seam, angle, with_wedge_);
+        scan_.push_back({angle, with_wedge_.chain, chain_law(with_wedge_.chain)});
+        rock->yields.add(scan_.back().chain, scan_.back().law);
     }
 }
 
@@ -500,18 +516,32 @@ bool SeamGround::serves(const Seam& seam) const
 
 namespace {
 
-SlipStages stages_of(const Scene& scene, const Rock& rock, const Seam& seam, std::optional<double> angle, double growth);
-std::vector<SeamStage> bodies_of(const Scene& scene, const Rock& rock, const Seam& seam, std::optional<double> angle,
-                                 double growth);
+/// The chain of a seam that has slid. @param angle  of the wedge; none: the body alone
+using ChainOf = std::function<Chain(std::optional<double> angle, const SeamState& state)>;
+SlipStages stages_of(const Scene& scene, const Seam& seam, std::optional<double> angle, double growth, const ChainOf& chain_of);
+std::vector<SeamStage> bodies_of(const Scene& scene, const Seam& seam, std::optional<double> angle, double growth,
+                                 const ChainOf& chain_of);
+
+/// Place of the least value that is not infinite; the size: there is none.
+std::size_t least_place(const std::vector<double>& values)
+{
+    std::size_t best = values.size();
+    double least = unbounded;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (values[i] < least) least = values[i], best = i;
+    return best;
+}
 
 /// Angles of the wedge at the least F of each state and, last, at the least a_y; none: no wedge, or none that stands.
+/// @param plane  its model becomes that of some angle
 std::vector<std::optional<double>> least_angles(const Scene& scene, const Seam& seam, const std::vector<GroundState>& states,
                                                 const SeamGround& ground, SeamPlane& plane)
 {
     std::vector<std::optional<double>> angles(states.size() + 1);
     const std::vector<SeamGround::Scanned>& scan = ground.scan();
     if (scan.empty()) return angles;
-    std::vector<double> values(scan.size());
+    SeamModel& model = plane.model = ground.with_wedge();
+    put_strengths(seam, {}, seam.interface.model, ground.rock().path.size() - 1, model.chain);
     SeamGround::Scanned at;
     const auto with_strengths = [&](const SeamGround::Scanned& scanned) {
         at = scanned;
@@ -523,20 +553,19 @@ std::vector<std::optional<double>> least_angles(const Scene& scene, const Seam& 
             with_strengths(scanned);
             plane.trials.push_back(tried(at.angle, at.chain, at.law, states));
         }
+    std::vector<double> values = states.empty() ? ground.rock().yields.yields(model.chain) : std::vector<double>(scan.size());
+    ChainLaw law;
     for (std::size_t k = 0; k <= states.size(); ++k) {
-        double least = unbounded;
-        std::size_t best = scan.size();
-        for (std::size_t i = 0; i < scan.size(); ++i) {
-            if (states.empty()) {
-                with_strengths(scan[i]);
-                values[i] = at.law.yield() < least ? least_of(at.chain, at.law, states, k) : unbounded;
-            } else {
-                const WedgeTrial& t = plane.trials[i];
-                const ChainStatus status = k < states.size() ? t.statuses[k] : t.status;
-                values[i] = status != ChainStatus::stands ? unbounded : k < states.size() ? t.factors[k] : t.yield;
-            }
-            if (values[i] < least) least = values[i], best = i;
-        }
+        for (std::size_t i = 0; i < plane.trials.size(); ++i)
+            values[i] = k < states.size() ? plane.trials[i].factors[k] : plane.trials[i].yield;
+        const auto stands = [&](std::size_t i) {
+            if (!states.empty())
+                return (k < states.size() ? plane.trials[i].statuses[k] : plane.trials[i].status) == ChainStatus::stands;
+            with_strengths(scan[i]);
+            return chain_status(at.chain, at.law, values[i], 0.0) == ChainStatus::stands;
+        };
+        std::size_t best = least_place(values);
+        for (; best < scan.size() && !stands(best); best = least_place(values)) values[best] = unbounded;
         if (best == scan.size()) continue;
         angles[k] = scan[best].angle;
         if (!seam.wedge->angles.empty()) continue;
@@ -545,16 +574,17 @@ std::vector<std::optional<double>> least_angles(const Scene& scene, const Seam& 
         if (at_end) continue;
         angles[k] = least_between(
             [&](double angle) {
-                const Chain chain = model_of(scene, ground.rock(), seam, angle).chain;
-                return least_of(chain, chain_law(chain), states, k);
+                set_angle(scene, ground.rock(), seam, angle, model);
+                set_law(model.chain, 1.0, law);
+                return least_of(model.chain, law, states, k);
             },
-            scan[best - 1].angle, scan[best].angle, least, scan[best + 1].angle);
+            scan[best - 1].angle, scan[best].angle, values[best], scan[best + 1].angle);
     }
     if (states.empty()) return angles;
     for (const std::optional<double>& angle : angles) {
         if (!angle || !seam.wedge->angles.empty()) continue;
-        const Chain chain = model_of(scene, ground.rock(), seam, angle).chain;
-        plane.trials.push_back(tried(*angle, chain, chain_law(chain), states));
+        set_angle(scene, ground.rock(), seam, *angle, model);
+        plane.trials.push_back(tried(*angle, model.chain, chain_law(model.chain), states));
     }
     const auto lower = [](const WedgeTrial& a, const WedgeTrial& b) { return a.angle < b.angle; };
     std::sort(plane.trials.begin(), plane.trials.end(), lower);
@@ -594,42 +624,55 @@ SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<Gro
         plane.factors.push_back(factor);
     }
 
-    plane.model = model_of(scene, on_rock, seam, plane.angle);
+    if (plane.angle)
+        set_angle(scene, on_rock, seam, *plane.angle, plane.model);
+    else
+        plane.model = ground.body();
+    const ChainOf chain_of = [&](std::optional<double> angle, const SeamState& state) {
+        if (state.drains != DrainState::effective) return model_of(scene, on_rock, seam, angle, state).chain;
+        Chain chain = angle == plane.angle ? plane.model.chain : ground.body().chain;
+        put_strengths(seam, state, seam.interface.model, on_rock.path.size() - 1, chain);
+        return chain;
+    };
+    plane.model.chain = chain_of(plane.angle, {});
     const Chain& chain = plane.model.chain;
     const ChainLaw law = chain_law(chain);
     plane.yield = law.yield();
     plane.status = chain_status(chain, law, plane.yield, 0.0);
     // F = 1 where the yield is zero.
     const std::size_t of_seam = chain.blocks.size() - (plane.angle ? 1 : 0);
-    auto excess = [&, held = chain, of_held = law](double friction) mutable {
+    std::vector<Point> weights;
+    auto excess = [&, held = chain](double friction) mutable {
         for (std::size_t i = 0; i < of_seam; ++i) held.blocks[i].friction = friction;
-        set_strengths(held, 1.0, of_held);
-        return of_held.yield();
+        return yield_with(held, chain, law, weights);
     };
     double high = 1.0;
     while (high < 1e3 && excess(high) < 0.0) high *= 2.0;
     plane.holding_friction = excess(0.0) >= 0.0 ? 0.0 : excess(high) < 0.0 ? unbounded : bracketed_root(excess, 0.0, high);
     plane.valid_slip = unbounded;
     if (plane.status == ChainStatus::locked) {
-        plane.stages = stages_of(scene, on_rock, seam, plane.angle, 0.0);
+        plane.stages = stages_of(scene, seam, plane.angle, 0.0, chain_of);
         return plane;
     }
     plane.yield_per_a_v = -law.per_a_v / law.drive;
     plane.slip_factor = law.factor();
-    plane.forces = chain_forces(chain, law, plane.yield, 0.0);
-    plane.resultants = resultants(plane.model, plane.forces, plane.yield);
-    plane.shares = resistance_shares(chain, law, plane.forces);
-    if (!chain.interfaces.empty()) {
+    if (!states.empty()) {
+        plane.forces = chain_forces(chain, law, plane.yield, 0.0);
+        plane.resultants = resultants(plane.model, plane.forces, plane.yield);
+        plane.shares = resistance_shares(chain, law, plane.forces);
+    }
+    const bool grows = scene.planes.geometry == PlaneGeometry::linear;
+    if (!chain.interfaces.empty() && (grows || !states.empty())) {
         plane.growth = yield_growth(chain, scene.foundation->material.density);
         if (plane.growth != 0.0) plane.valid_slip = 0.05 * std::abs(plane.yield / plane.growth);
     }
-    const double growth = scene.planes.geometry == PlaneGeometry::linear ? plane.growth : 0.0;
-    plane.bodies = bodies_of(scene, on_rock, seam, plane.angle, growth);
+    const double growth = grows ? plane.growth : 0.0;
+    plane.bodies = bodies_of(scene, seam, plane.angle, growth, chain_of);
     if (!plane.bodies.empty()) {
         const SeamStage& first = plane.bodies.front();
         plane.upstream = yield_upstream_alone(first.body);
-        plane.impact = chain_law(first.body).mass / chain_law(first.chain).mass;
-        if (const std::size_t n = first.body.blocks.size(); n + 1 == chain.blocks.size()) {
+        if (!states.empty()) plane.impact = chain_law(first.body).mass / chain_law(first.chain).mass;
+        if (const std::size_t n = first.body.blocks.size(); n + 1 == chain.blocks.size() && !states.empty()) {
             Chain wedge{{chain.blocks[n]}, {}, chain.gravity, 0};
             const ChainInterface& face = chain.interfaces[n - 1];
             wedge.blocks[0].force.x += face.water * std::sin(face.angle);
@@ -637,7 +680,7 @@ SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<Gro
             plane.wedge_back = yield_upstream_alone(wedge).law.constant;
         }
     }
-    plane.stages = stages_of(scene, on_rock, seam, plane.angle, growth);
+    plane.stages = stages_of(scene, seam, plane.angle, growth, chain_of);
     return plane;
 }
 
@@ -689,12 +732,12 @@ std::vector<Piece> pieces_of(const Scene& scene, const Seam& seam)
     return pieces;
 }
 
-SlipStages stages_of(const Scene& scene, const Rock& on_rock, const Seam& seam, std::optional<double> angle, double growth)
+SlipStages stages_of(const Scene& scene, const Seam& seam, std::optional<double> angle, double growth, const ChainOf& chain_of)
 {
     SlipStages stages;
     const std::vector<FrictionOverSlip::Piece> given = FrictionOverSlip(seam.strength).pieces();
     for (const Piece& piece : pieces_of(scene, seam)) {
-        const Chain chain = model_of(scene, on_rock, seam, angle, piece.state).chain;
+        const Chain chain = chain_of(angle, piece.state);
         SlipStage stage;
         stage.from_slip = piece.from;
         stage.block = chain_block(chain, chain_law(chain));
@@ -740,8 +783,8 @@ std::size_t blocks_back(const Chain& body)
     return count;
 }
 
-std::vector<SeamStage> bodies_of(const Scene& scene, const Rock& on_rock, const Seam& seam, std::optional<double> angle,
-                                 double growth)
+std::vector<SeamStage> bodies_of(const Scene& scene, const Seam& seam, std::optional<double> angle, double growth,
+                                 const ChainOf& chain_of)
 {
     std::vector<SeamStage> stages;
     const std::vector<Piece> pieces = pieces_of(scene, seam);
@@ -750,9 +793,9 @@ std::vector<SeamStage> bodies_of(const Scene& scene, const Rock& on_rock, const 
         SeamState state = pieces[i].state;
         if (pieces[i].slope != 0.0 && i + 1 < pieces.size()) // the mean
             state.friction = pieces[i].friction + 0.5 * pieces[i].slope * (pieces[i + 1].from - pieces[i].from);
-        SeamStage stage{pieces[i].from, model_of(scene, on_rock, seam, angle, state).chain, {}, growth,
+        SeamStage stage{pieces[i].from, chain_of(angle, state), {}, growth,
                         scene.planes.wedge == PlaneWedge::free};
-        stage.body = angle ? model_of(scene, on_rock, seam, std::nullopt, state).chain : stage.chain;
+        stage.body = angle ? chain_of(std::nullopt, state) : stage.chain;
         if (count == 0) count = blocks_back(stage.body);
         if (count < stage.body.blocks.size()) { // the water of the face stays
             const ChainInterface& face = stage.body.interfaces[count - 1];
@@ -771,7 +814,10 @@ std::vector<SeamStage> bodies_of(const Scene& scene, const Rock& on_rock, const 
 
 SlipStages seam_stages(const Scene& scene, const Seam& seam, std::optional<double> angle, double growth)
 {
-    return stages_of(scene, Rock(scene, seam), seam, angle, growth);
+    const Rock on_rock(scene, seam);
+    return stages_of(scene, seam, angle, growth, [&](std::optional<double> of_wedge, const SeamState& state) {
+        return model_of(scene, on_rock, seam, of_wedge, state).chain;
+    });
 }
 
 } // namespace damslip::sliding

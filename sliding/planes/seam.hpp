@@ -50,16 +50,6 @@ struct SeamModel {
 SeamModel seam_model(const Scene& scene, const Seam& seam, std::optional<double> angle, const SeamState& state = {},
                      std::optional<InterfaceModel> interface = std::nullopt);
 
-enum class ChainStatus {
-    stands,
-    locked, ///< no acceleration moves it: its strengths wedge the blocks in
-    floats, ///< a block would have to pull on its segment
-    opens   ///< an interface would have to pull: what is upstream of it stays behind
-};
-/// @param over  F, as of `law`
-ChainStatus chain_status(const Chain& chain, const ChainLaw& law, double a_h, double a_v, double over = 1.0);
-const char* word(ChainStatus status);
-
 /// One angle of the wedge.
 struct WedgeTrial {
     double angle = 0.0;          ///< α [rad]
@@ -105,11 +95,11 @@ struct SeamPlane {
     std::vector<SeamStage> bodies;
 };
 
-/// What of a seam does not depend on its strengths: its geometry, loads and water, for each angle of the wedge that is tried.
+/// What of a seam does not depend on its strengths: its geometry, loads and water, for each angle of the wedge that is tried. All
+/// models have the strengths of the seam that it was made for.
 class SeamGround {
 public:
     struct Rock;
-    /// The chain at an angle, with the strengths of the seam that it was made for.
     struct Scanned {
         double angle = 0.0;
         Chain chain;
@@ -122,14 +112,17 @@ public:
     bool serves(const Seam& seam) const; ///< a seam that differs in strengths alone, dilation apart
     const Rock& rock() const { return *rock_; }
     const std::vector<Scanned>& scan() const { return scan_; } ///< by ascending angle; empty: no wedge
+    const SeamModel& with_wedge() const { return with_wedge_; } ///< at one of these angles
+    const SeamModel& body() const { return body_; }             ///< without a wedge
 
 private:
     std::shared_ptr<const Rock> rock_;
     Seam seam_;
     std::vector<Scanned> scan_;
+    SeamModel with_wedge_, body_;
 };
 
-/// @param states  the first is the static one; none: factors and trials are not asked for
+/// @param states  the first is the static one; none: factors, trials and what of the yield is only printed are not asked for
 /// @throws InputError for a seam whose blocks cannot be made (messages of check.hpp come first)
 SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<GroundState>& states);
 /// @param ground  of the same scene and of a seam that it serves

@@ -11,6 +11,32 @@ namespace damslip::sliding {
 
 namespace {
 
+/// Of an acceleration, or of a difference of two, over both components of the ground's.
+struct Form {
+    double per_a_h = 0.0, per_a_v = 0.0, constant = 0.0;
+
+    double at(double a_h, double a_v) const { return per_a_h * a_h + per_a_v * a_v + constant; }
+    double largest(const AccelRange& range) const
+    {
+        return std::max(per_a_h * range.h_min, per_a_h * range.h_max) + std::max(per_a_v * range.v_min, per_a_v * range.v_max) +
+               constant;
+    }
+    /// At some sample, or with the ground at rest: it is linear between samples.
+    bool rises_above_zero(const SkippingMotion& skipping, int polarity) const
+    {
+        const GroundMotion& motion = skipping.motion();
+        if (constant > 0.0) return true;
+        if (largest(turned(skipping.whole(), polarity)) <= 0.0) return false;
+        const auto below = [&](const AccelRange& range) { return largest(turned(range, polarity)) <= 0.0; };
+        for (std::size_t i = 0; i < skipping.intervals(); ++i) {
+            if ((i = skipping.skip(i, below)) == skipping.intervals()) break;
+            for (const std::size_t k : {i, i + 1})
+                if (at(polarity * motion.accel_h[k], motion.accel_v.empty() ? 0.0 : motion.accel_v[k]) > 0.0) return true;
+        }
+        return false;
+    }
+};
+
 /// A chain while it moves one way, with its equation of motion.
 struct MovingChain {
     Chain chain;
@@ -25,6 +51,8 @@ struct MovingChain {
         per_a_v = law.per_a_v / law.mass;
         constant = law.constant / law.mass;
     }
+
+    Form form() const { return {per_a_h, per_a_v, constant}; } ///< of the acceleration of the slip
 
     /// In terms of another slip. @param rate  of this chain's over that one
     void count_by(double rate)
@@ -87,58 +115,32 @@ std::pair<Chain, Chain> parted(const SeamStage& stage)
     return {body, wedge};
 }
 
-/// Of an acceleration, or of a difference of two, over both components of the ground's.
-struct Form {
-    double per_a_h = 0.0, per_a_v = 0.0, constant = 0.0;
-
-    double at(double a_h, double a_v) const { return per_a_h * a_h + per_a_v * a_v + constant; }
-    double largest(const AccelRange& range) const
-    {
-        return std::max(per_a_h * range.h_min, per_a_h * range.h_max) + std::max(per_a_v * range.v_min, per_a_v * range.v_max) +
-               constant;
-    }
-    /// At some sample, or with the ground at rest: it is linear between samples.
-    bool rises_above_zero(const SkippingMotion& skipping, int polarity) const
-    {
-        const GroundMotion& motion = skipping.motion();
-        if (constant > 0.0) return true;
-        if (largest(turned(skipping.whole(), polarity)) <= 0.0) return false;
-        const auto below = [&](const AccelRange& range) { return largest(turned(range, polarity)) <= 0.0; };
-        for (std::size_t i = 0; i < skipping.intervals(); ++i) {
-            if ((i = skipping.skip(i, below)) == skipping.intervals()) break;
-            for (const std::size_t k : {i, i + 1})
-                if (at(polarity * motion.accel_h[k], motion.accel_v.empty() ? 0.0 : motion.accel_v[k]) > 0.0) return true;
-        }
-        return false;
-    }
-};
-
 struct MovingStage {
     double from_slip = 0.0;
     MovingChain together, down, up;
-    std::optional<MovingChain> behind, wedge; ///< the body behind a wedge that has run ahead; that wedge, by the slip of the body
+    /// The body behind a wedge that has run ahead, and that wedge, by the slip of the body; none: the wedge may not.
+    std::optional<MovingChain> behind, wedge;
     Form of_wedge, gain;                      ///< its acceleration; what it has more than the body behind it
     bool cohesive = false;                    ///< the face between them
     double growth = 0.0;                      ///< κ H/M*
-    bool parts;                               ///< SeamStage::parts
 
     MovingStage(const SeamStage& s)
         : from_slip(s.from_slip), together(s.chain), down(s.body), up(going_upstream(s.body), 1e9),
-          growth(s.growth * together.law.factor()), parts(s.parts)
+          growth(s.growth * together.law.factor())
     {
-        if (!has_wedge(s)) return;
+        if (!s.parts || !has_wedge(s)) return;
         const auto [body, alone] = parted(s);
         behind.emplace(body);
         wedge.emplace(alone);
         wedge->count_by(together.law.rates[s.body.blocks.size()]);
         cohesive = s.chain.interfaces[s.body.blocks.size() - 1].cohesion > 0.0;
-        of_wedge = {wedge->per_a_h, wedge->per_a_v, wedge->constant};
+        of_wedge = wedge->form();
         gain = {wedge->per_a_h - behind->per_a_h, wedge->per_a_v - behind->per_a_v, wedge->constant - behind->constant};
     }
 
     bool may_run_ahead(const SkippingMotion& motion, int polarity) const
     {
-        return parts && wedge && (of_wedge.rises_above_zero(motion, polarity) || gain.rises_above_zero(motion, polarity));
+        return wedge && (of_wedge.rises_above_zero(motion, polarity) || gain.rises_above_zero(motion, polarity));
     }
 };
 
@@ -146,7 +148,7 @@ class SeamRun {
 public:
     SeamRun(const std::vector<SeamStage>& stages, const SlideOptions& options, SeamWorks works, const SkippingMotion& motion)
         : stages_(stages.begin(), stages.end()), two_way_(options.sliding.two_way), books_(works == SeamWorks::booked),
-          has_wedge_(stages_.front().wedge.has_value()), gravity_(stages.front().chain.gravity)
+          has_wedge_(has_wedge(stages.front())), gravity_(stages.front().chain.gravity)
     {
         for (const MovingStage& s : stages_) {
             runs_ahead_ = runs_ahead_ || s.may_run_ahead(motion, options.polarity);
@@ -186,34 +188,51 @@ public:
         const double per_a_h = m.per_a_h, per_a_v = m.per_a_v, constant = m.constant, way = way_,
                      stage_end = stage_ + 1 < stages_.size() ? stages_[stage_ + 1].from_slip : never,
                      meets = has_wedge_ && way_ > 0 && !touching_ ? contact_ : never;
-        double x = x_, rate = rate_, path = path_, time = time_, largest = out_.slide.max_slip,
-               fastest = out_.slide.peak_slip_rate, gap = out_.slide.max_gap;
+        const bool ends_somewhere = stage_end != never || meets != never, may_loosen = runs_ahead_;
+        double x = x_, rate = rate_, path = path_, time = time_, fastest = out_.slide.peak_slip_rate, x_first = x;
         const std::size_t first = k;
         const Form& loosens = together() ? stage().gain : stage().of_wedge; // above zero: the wedge may move by itself
         double end = (per_a_h * a_h(k) + per_a_v * a_v(k)) + constant;
         for (; k < last; ++k) {
             const double now = end;
             end = (per_a_h * a_h(k + 1) + per_a_v * a_v(k + 1)) + constant;
-            const double speed = std::abs(rate), slower = std::min(way * now, way * end),
-                         furthest = (speed + std::max(std::abs(now), std::abs(end)) * dt) * dt;
-            if (runs_ahead_ && std::max(loosens.at(a_h(k), a_v(k)), loosens.at(a_h(k + 1), a_v(k + 1))) > 0.0) break;
-            if (!((1.0 - margin) * speed + slower * dt > 0.0) || stage_end - path <= furthest || meets - x <= furthest) break;
+            const double speed = std::abs(rate), slower = std::min(way * now, way * end);
+            if (!((1.0 - margin) * speed + slower * dt > 0.0)) break;
+            if (may_loosen && std::max(loosens.at(a_h(k), a_v(k)), loosens.at(a_h(k + 1), a_v(k + 1))) > 0.0) break;
+            if (ends_somewhere) {
+                const double furthest = (speed + std::max(std::abs(now), std::abs(end)) * dt) * dt;
+                if (stage_end - path <= furthest || meets - x <= furthest) break;
+            }
             const double jerk = (end - now) / dt, moved = rate * dt + (0.5 * now + jerk * dt / 6.0) * dt * dt;
             x += moved;
             path += std::abs(moved);
             rate += (now + 0.5 * jerk * dt) * dt;
-            largest = std::max(largest, std::abs(x));
             fastest = std::max(fastest, std::abs(rate));
-            if (!touching_) gap = std::max(gap, contact_ - x);
             time += dt;
+            if (k == first) x_first = x;
         }
         if (k == first) return k;
+        for (const double place : {x_first, x}) see(place); // the body goes one way: slip and gap are largest at one of the two
         x_ = x, rate_ = rate, path_ = path;
         if (touching_) contact_ = x;
-        out_.slide.max_slip = largest;
         out_.slide.peak_slip_rate = fastest;
-        out_.slide.max_gap = gap;
         out_.slide.last_slip_time = time_ = time;
+        return k;
+    }
+    /// The same of a body at rest, up to the next block of intervals that may be skipped.
+    template <class AccelH, class AccelV>
+    std::size_t rest_on(const AccelH& a_h, const AccelV& a_v, double dt, std::size_t k, std::size_t last)
+    {
+        const Form down = going_down().form(), up = stage().up.form(), wedge = stage().of_wedge;
+        const auto moves = [&](std::size_t i) {
+            const double h = a_h(i), v = a_v(i);
+            return down.at(h, v) > 0.0 || (two_way_ && up.at(h, v) < 0.0) || (runs_ahead_ && wedge.at(h, v) > 0.0);
+        };
+        if (grows_ || moves(k)) return k;
+        do {
+            if (moves(k + 1)) return k;
+            time_ += dt;
+        } while (++k < last && k % SkippingMotion::block != 0);
         return k;
     }
     bool at_rest() const { return way_ == 0 && !ahead_; }
@@ -240,6 +259,11 @@ public:
     }
 
 private:
+    void see(double x) ///< a place of the body
+    {
+        out_.slide.max_slip = std::max(out_.slide.max_slip, std::abs(x));
+        if (!touching_) out_.slide.max_gap = std::max(out_.slide.max_gap, contact_ - x);
+    }
     enum class Event { none, starts, stops, stage, meets, parts, wedge_starts, wedge_stops };
 
     const MovingStage& stage() const { return stages_[stage_]; }
@@ -570,8 +594,10 @@ SeamSlide slide_seam(const SkippingMotion& skipping, const std::vector<SeamStage
 {
     const GroundMotion& motion = skipping.motion();
     SeamRun run(stages, options, works, skipping);
-    const auto at = [&](std::size_t i) { return options.polarity * motion.accel_h[i]; };
-    const auto up = [&](std::size_t i) { return motion.accel_v.empty() ? 0.0 : motion.accel_v[i]; };
+    const double polarity = options.polarity;
+    const double *h = motion.accel_h.data(), *v = motion.accel_v.empty() ? nullptr : motion.accel_v.data();
+    const auto at = [=](std::size_t i) { return polarity * h[i]; };
+    const auto up = [=](std::size_t i) { return v ? v[i] : 0.0; };
     const auto rests = [&](const AccelRange& range) {
         return run.rests(turned(range, options.polarity));
     };
@@ -580,6 +606,10 @@ SeamSlide slide_seam(const SkippingMotion& skipping, const std::vector<SeamStage
             const std::size_t next = skipping.skip(i, rests);
             run.wait(static_cast<double>(next - i) * motion.dt);
             if ((i = next) == skipping.intervals()) break;
+            if (const std::size_t on = run.rest_on(at, up, motion.dt, i, skipping.intervals()); on != i) {
+                i = on - 1;
+                continue;
+            }
         } else if ((i = run.slide_on(at, up, motion.dt, i, skipping.intervals())) == skipping.intervals()) {
             break;
         }
