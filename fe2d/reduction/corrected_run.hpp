@@ -8,14 +8,15 @@ namespace damslip::fe2d {
 ///
 ///     s = s_full(Δt/2^L) + s_few(Δt/2^K) - s_few(Δt/2^L),   1 <= L < K
 ///
-/// (defect correction; of two terms of a multilevel sum, Giles 2015). What the step leaves open is contact's, and contact is the same in
-/// both: the correction errs by a few hundredths of itself (docs/fe-contact.md, Accuracy in time). The error is what the smallest step
-/// leaves open by the slips on few modes, and a tenth of the correction or, where that is more, what few modes and the whole dam differ
-/// by at the steps that both have made. L is the least from 1 on for which it is within time.slip_tolerance. Slip of the base (of all pairs alike), its history and that of the crest are corrected; stresses, displacements, openings, forces and energy are
-/// those of the full run at its steps.
+/// (defect correction; of two terms of a multilevel sum, Giles 2015, Acta Numerica 24, 259-328). What the step leaves open is
+/// contact's, and contact is the same in both: the correction errs by a few hundredths of itself (docs/fe-contact.md, Accuracy in
+/// time). The error is what the smallest step leaves open by the slips on few modes, and a tenth of the correction or, where that
+/// is more, what few modes and the whole dam differ by at the steps that both have made. L is the least for which it is within
+/// time.slip_tolerance. Corrected are the slip of the base (of all pairs alike), its history and that of the crest; stresses,
+/// displacements, openings, forces and energy are those of the full run at its steps.
 ///
-/// Where that is not within the tolerance, or something does not come to rest, the full run goes its own way: steps halved until the
-/// slip stays.
+/// Where the error is not within the tolerance, or something does not come to rest, the full run goes its own way: steps halved
+/// until the slip stays.
 class CorrectedRun {
 public:
     /// @param full  made from the same scene; kept by reference   @param options  of the runs on few modes
