@@ -51,7 +51,7 @@ struct PatchErrors {
 
 PatchErrors patch_errors(const Mesh& mesh, Q4Kind kind)
 {
-    const Materials materials{.dam = concrete, .rock = {}, .curtain = {}, .kind = kind};
+    const Materials materials{.dam = concrete, .rock = {}, .curtain = {}, .block = {}, .kind = kind};
     const Eigen::MatrixXd k = stiffness_matrix(mesh, all_dofs(mesh, 2), materials);
     Eigen::VectorXd exact(16);
     for (int i = 0; i < 8; ++i) exact.segment<2>(2 * i) = linear_field(mesh.nodes[i]);

@@ -90,7 +90,7 @@ TEST_F(ResultStoreFile, ManyRowsInAnyOrder)
     SweepIdentity many = identity;
     many.rows = 20'000;
     std::vector<FinishedRow> written;
-    for (std::size_t k = 0; k < many.rows; ++k) written.push_back(row_of(k * 7919 % many.rows, 1.0 / (k + 1.0)));
+    for (std::size_t k = 0; k < many.rows; ++k) written.push_back(row_of(k * 7919 % many.rows, 1.0 / (static_cast<double>(k) + 1.0)));
     for (std::size_t k = 0; k < many.rows; k += 5) written[k].results.opening = 0.25;
     {
         ResultStore store(file(), many, {}, StoreStart::fresh);

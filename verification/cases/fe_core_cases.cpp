@@ -41,7 +41,7 @@ std::vector<Check> patch_test()
                                      {ElementKind::q4, "Q4"},
                                      {ElementKind::t3, "T3"}}) {
         const Mesh mesh = patch(kind);
-        const Materials materials{.dam = material, .rock = material, .curtain = material, .kind = q4_kind(kind)};
+        const Materials materials{.dam = material, .rock = material, .curtain = material, .block = {}, .kind = q4_kind(kind)};
         Eigen::VectorXd exact(16);
         for (int i = 0; i < 8; ++i) {
             const Point p = mesh.nodes[static_cast<std::size_t>(i)];
@@ -165,7 +165,7 @@ std::vector<Check> cantilever_deflection()
         for (const double x : {0.0, 0.25, 0.5, 0.75}) scene.forces.push_back({"tip", {x + 0.125, 20.0}, 250.0, 0.0});
         const Model model = build_model(scene);
         const Eigen::VectorXd u =
-            solve_static(scene, model, {.gravity = {}, .impounding = static_loads(scene, model).impounding})
+            solve_static(scene, model, {.rock = {}, .gravity = {}, .impounding = static_loads(scene, model).impounding})
                 .stages.back()
                 .elastic;
         double mean = 0.0;

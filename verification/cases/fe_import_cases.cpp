@@ -80,7 +80,7 @@ std::vector<Check> imported_patch()
     for (const auto& [kind, name] :
          {std::pair{ElementKind::q4_incompatible, "Q4 incompatible"}, {ElementKind::q4, "Q4"}}) {
         const Mesh mesh = mixed(scene, GmshVersion::v4_1);
-        const Materials materials{.dam = material, .rock = material, .curtain = material, .kind = q4_kind(kind)};
+        const Materials materials{.dam = material, .rock = material, .curtain = material, .block = {}, .kind = q4_kind(kind)};
         Eigen::VectorXd exact(2 * mesh.node_count());
         for (int i = 0; i < mesh.node_count(); ++i) {
             const Point p = mesh.nodes[i];

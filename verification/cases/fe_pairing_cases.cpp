@@ -145,7 +145,7 @@ enum class Joining { mortar, interpolated };
 Errors solve(const TwoBodies& sizes, Joining joining)
 {
     const ElasticMaterial concrete{0.0, 25e9, 0.17}, stone{0.0, 10e9, 0.3};
-    const Materials materials{.dam = concrete, .rock = stone, .curtain = stone, .kind = Q4Kind::incompatible};
+    const Materials materials{.dam = concrete, .rock = stone, .curtain = stone, .block = {}, .kind = Q4Kind::incompatible};
     const Vector2d traction(0.3e6, -1e6); // on the dam's top: shear and pressure
     const LinearState upper = linear_state(concrete, 2e-5, traction), lower = linear_state(stone, 2e-5, traction);
     const int across = static_cast<int>(std::lround(rock_width / sizes.rock_size));

@@ -35,7 +35,7 @@ constexpr ElasticMaterial stuff{0.0, 1e6, 0.25};
 
 Materials materials_for(ElementKind kind, const ElasticMaterial& material = stuff)
 {
-    return {.dam = material, .rock = material, .curtain = material, .kind = q4_kind(kind)};
+    return {.dam = material, .rock = material, .curtain = material, .block = {}, .kind = q4_kind(kind)};
 }
 
 Mesh shaped(std::vector<Point> nodes, const std::vector<std::array<int, 4>>& quadrilaterals, ElementKind kind,
