@@ -42,15 +42,20 @@ double at(const std::vector<double>& series, std::size_t row)
     return series[std::min(row, series.size() - 1)];
 }
 
-void correct(const RunResult& coarse, const RunResult& fine, double record_end, RunResult& run)
+/// Slides the dam farther, as a rigid body.
+void correct(const ContactStructure& structure, const RunResult& coarse, const RunResult& fine, double record_end, RunResult& run)
 {
     RunHistory& history = run.history;
     std::vector<double> change;
-    for (std::size_t row = 0; row < history.time.size(); ++row) {
+    for (std::size_t row = 0; row < history.time.size(); ++row)
         change.push_back(at(fine.history.slip, row) - at(coarse.history.slip, row));
-        history.crest_x[row] += at(fine.history.crest_x, row) - at(coarse.history.crest_x, row);
-    }
-    add_to_slip(change, history);
+    const Eigen::Vector2d along = structure.plane().tangent;
+    const Eigen::Index dam = structure.model().mesh.dam_node_count;
+    const Eigen::VectorXd sliding = along.replicate(dam, 1);
+    Eigen::VectorXd all_nodes = Eigen::VectorXd::Zero(structure.dam_unknowns()); // acoustic water's, too
+    all_nodes.head(sliding.size()) = sliding;
+    slide(change, structure.order().to_new(all_nodes), along.x(), history);
+    run.displacement.head(sliding.size()) += change.back() * sliding;
     const auto end_of_record = static_cast<std::size_t>(
         std::lower_bound(history.time.begin(), history.time.end(), record_end - 1e-9) - history.time.begin());
     const double shaken = at(change, end_of_record), all = change.back();
@@ -92,7 +97,7 @@ RunResult CorrectedRun::run(const GroundMotion& motion) const
     run.slip_error = choice->of_step + std::max(choice->of_correction, largest_difference(run.history.slip, coarse.history.slip));
     if (run.slip_error > wanted(run.max_slip)) return full_.run(motion);
     run.seconds.dynamics += seconds;
-    correct(coarse, fine, motion.dt * static_cast<double>(motion.accel_h.size() - 1), run);
+    correct(full_.structure(), coarse, fine, motion.dt * static_cast<double>(motion.accel_h.size() - 1), run);
     return run;
 }
 

@@ -12,8 +12,8 @@ namespace damslip::fe2d {
 /// contact's, and contact is the same in both: the correction errs by a few hundredths of itself (docs/fe-contact.md, Accuracy in
 /// time). The error is what the smallest step leaves open by the slips on few modes, and a tenth of the correction or, where that
 /// is more, what few modes and the whole dam differ by at the steps that both have made. L is the least for which it is within
-/// time.slip_tolerance. Corrected are the slip of the base (of all pairs alike), its history and that of the crest; stresses,
-/// displacements, openings, forces and energy are those of the full run at its steps.
+/// time.slip_tolerance. The dam slides farther by the correction as a rigid body; stresses, openings, forces and energy are
+/// those of the full run at its steps.
 ///
 /// Where the error is not within the tolerance, or something does not come to rest, the full run goes its own way: steps halved
 /// until the slip stays.

@@ -383,9 +383,11 @@ RunFrame FrameSpool::read(std::size_t index) const
     frame.time = instant[0];
     frame.mean_slip = instant[1];
     for_each_part(frame, [&](auto& part) { read_values(file_.get(), part); });
-    const double change = change_ ? change_(frame.time) : 0.0;
+    if (!change_.at) return frame;
+    const double change = change_.at(frame.time);
     frame.mean_slip += change;
     frame.slip.array() += change;
+    frame.dam += change * change_.sliding;
     return frame;
 }
 
@@ -422,23 +424,29 @@ void StateKeeper::look(const DynamicState& state, double time, double slip, doub
     keep(Instant::end);
 }
 
-void StateKeeper::add_to_slip(const std::function<double(double time)>& change)
+void StateKeeper::slide(const SlipChange& change)
 {
-    for (StoredState& kept : kept_) kept.slip += change(kept.time);
+    for (StoredState& kept : kept_) {
+        if (kept.dam.size() == 0) continue;
+        kept.slip += change.at(kept.time);
+        kept.dam += change.at(kept.time) * change.sliding;
+    }
 }
 
-void add_to_slip(const std::vector<double>& change, RunHistory& history)
+void slide(const std::vector<double>& change, const VectorXd& sliding, double level, RunHistory& history)
 {
+    for (std::size_t row = 0; row < change.size(); ++row) history.crest_x[row] += level * change[row];
     for (std::vector<double>* slip : {&history.slip, &history.slip_heel, &history.slip_middle, &history.slip_toe})
         for (std::size_t row = 0; row < change.size(); ++row) (*slip)[row] += change[row];
     PairHistory& pairs = history.by_pair;
     for (std::size_t i = 0; i < pairs.slip.size(); ++i) pairs.slip[i] += change[i / static_cast<std::size_t>(pairs.pairs)];
-    const auto at = [change, times = history.time](double time) {
-        const auto next = std::lower_bound(times.begin(), times.end(), time);
-        return change[static_cast<std::size_t>(std::min(next, times.end() - 1) - times.begin())];
-    };
-    history.states.add_to_slip(at);
-    if (history.frames) history.frames->add_to_slip(at);
+    const SlipChange of_dam{[change, times = history.time](double time) {
+                                const auto next = std::lower_bound(times.begin(), times.end(), time);
+                                return change[static_cast<std::size_t>(std::min(next, times.end() - 1) - times.begin())];
+                            },
+                            sliding};
+    history.states.slide(of_dam);
+    if (history.frames) history.frames->slide(of_dam);
 }
 
 std::vector<StoredState> StateKeeper::states() const

@@ -26,6 +26,12 @@ struct RunFrame {
     std::vector<double> states; ///< of all pairs, ContactState as a number
 };
 
+/// How much farther the dam has slid than the steps of a run have found, as a rigid body.
+struct SlipChange {
+    std::function<double(double time)> at; ///< [s; m]; empty: no change
+    Eigen::VectorXd sliding;               ///< displacements of a slide of 1 m, as StoredState::dam [-]
+};
+
 /// Frames of one pass of a run at equal intervals, in a file without a name: the memory does not grow with their number,
 /// and the file goes with the last who holds it.
 class FrameSpool {
@@ -39,8 +45,7 @@ public:
     std::size_t count() const { return places_.size(); }
     double last_time() const { return last_; } ///< of the last frame [s] @pre count() > 0
     RunFrame read(std::size_t index) const;    ///< @pre index < count()
-    /// Adds to the slips of all pairs in the frames read from now on. @param change  at a time [s; m]
-    void add_to_slip(std::function<double(double time)> change) { change_ = std::move(change); }
+    void slide(SlipChange change) { change_ = std::move(change); } ///< of the frames read from now on
 
 private:
     struct Close {
@@ -49,7 +54,7 @@ private:
     std::unique_ptr<std::FILE, Close> file_;
     std::vector<long> places_; ///< of the frames, bytes from the start
     double interval_, next_ = 0.0, last_ = 0.0;
-    std::function<double(double)> change_; ///< empty: none
+    SlipChange change_;
 };
 
 /// Instants of a run whose displacements are kept.
@@ -76,7 +81,7 @@ public:
     /// @param time  in the run's history [s] @param slip  area mean since the static state [m] @param crest_x  since the static state [m]
     void look(const DynamicState& state, double time, double slip, double crest_x);
 
-    void add_to_slip(const std::function<double(double time)>& change); ///< as of FrameSpool
+    void slide(const SlipChange& change);
     /// In order of time. The end is the last state looked at.
     std::vector<StoredState> states() const;
 
@@ -155,9 +160,9 @@ struct RunHistory {
     std::shared_ptr<FrameSpool> frames; ///< null: not asked for
 };
 
-/// Adds to the slips of the base, at heel and toe and of its pairs alike, and to those of kept instants and frames. Displacements stay.
-/// @param change  by row [m]
-void add_to_slip(const std::vector<double>& change, RunHistory& history);
+/// Slides the dam farther, as a rigid body: slips of the base and of its pairs, crest, kept instants and frames.
+/// @param change  by row [m] @param sliding  as SlipChange::sliding @param level  horizontal part of the slide [-]
+void slide(const std::vector<double>& change, const Eigen::VectorXd& sliding, double level, RunHistory& history);
 
 /// Rotation of the base over the rock [rad]: the slope of the area-weighted least-squares line through the openings,
 ///
