@@ -1,6 +1,6 @@
 // The reduced run against the full one.
 #include "core/file.hpp"
-#include "fe2d/reduction/reduced_run.hpp"
+#include "fe2d/reduction/corrected_run.hpp"
 #include "fe2d/run/step_error.hpp"
 #include "scene/rock_mass.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
@@ -270,6 +270,48 @@ TEST(FeReduction, rock_that_missed_its_gate_gives_no_slip)
     EXPECT_EQ(text_of(reduced.notes), text_of(run.notes));
     EXPECT_FALSE(reported(reduced.status, reduced.slip).has_value());
     fs::remove_all(folder);
+}
+
+/// Against steps much shorter than those that correct: the error is that of the slip, and no estimate of itself.
+TEST(CorrectedRun, IsWithinItsErrorOfMuchSmallerSteps)
+{
+    int corrected = 0;
+    for (const double friction : {0.65, 0.8})
+        for (const double pga : {1.5, 2.5}) {
+            const Scene scene = small_dam(friction);
+            const RunOptions options = options_of(scene);
+            const EarthquakeRun full(scene, options);
+            const GroundMotion motion = sines(pga, 8.0);
+            const RunResult run = CorrectedRun(full, scene, options).run(motion);
+            if (!run.correction) continue;
+            ++corrected;
+            const RunResult fine = full.run_at(motion, {5, {}});
+            EXPECT_LE(std::abs(run.slip - fine.slip), run.slip_error) << friction << " " << pga;
+            EXPECT_LE(run.slip_error, scene.time.slip_tolerance * run.max_slip);
+            // The same slip everywhere.
+            EXPECT_EQ(run.history.slip.back(), run.slip);
+            EXPECT_NEAR(full.structure().plane().weights().dot(run.pair_slip), run.slip, 1e-12);
+            EXPECT_NEAR(run.run_out.slip_shaking + run.run_out.slip_at_rest, run.slip, 1e-12);
+            EXPECT_GE(run.max_slip, std::abs(run.slip));
+            EXPECT_NEAR(run.after.slip - full.run_at(motion, {run.halvings, {}}).after.slip, run.correction->slip, 1e-12);
+        }
+    EXPECT_GE(corrected, 2);
+}
+
+/// Where runs on few modes do not settle within the tolerance, the run is that of halved steps, bit for bit.
+TEST(CorrectedRun, HalvesWhatItCannotCorrect)
+{
+    Scene scene = small_dam(0.75);
+    scene.time.slip_tolerance = 1e-5;
+    RunOptions options = options_of(scene);
+    options.largest_halvings = 3;
+    const EarthquakeRun full(scene, options);
+    const GroundMotion motion = sines(1.5, 4.0);
+    const RunResult run = CorrectedRun(full, scene, options).run(motion), halved = full.run(motion);
+    EXPECT_FALSE(run.correction);
+    EXPECT_EQ(run.slip, halved.slip);
+    EXPECT_EQ(run.slip_error, halved.slip_error);
+    EXPECT_EQ(run.status, halved.status);
 }
 
 } // namespace
