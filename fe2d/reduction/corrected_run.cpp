@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace damslip::fe2d {
 
@@ -73,32 +74,86 @@ void correct(const ContactStructure& structure, const RunResult& coarse, const R
 
 } // namespace
 
+namespace {
+
+/// Those of the runs on few modes, which have no frames and no series, and whose progress only asks whether to stop.
+RunOptions of_few_modes(RunOptions options)
+{
+    options.frames = 0;
+    options.pair_series = PairSeries::none;
+    if (options.progress)
+        options.progress = [stop = options.stop](const RunProgress&) {
+            return stop && stop() ? RunAnswer::stop : RunAnswer::go_on;
+        };
+    return options;
+}
+
+double order_of(const Contact& contact, const Plane& plane)
+{
+    return Strength(contact, plane).constant() ? contact_order : sudden_order;
+}
+
+} // namespace
+
 CorrectedRun::CorrectedRun(const EarthquakeRun& full, const Scene& scene, const RunOptions& options)
     : full_(full), tolerance_(scene.time.slip_tolerance), smallest_slip_(options.smallest_slip),
-      order_(Strength(scene.contact, full.structure().plane()).constant() ? contact_order : sudden_order), few_(full, scene, options)
+      few_(full, scene, of_few_modes(options))
 {
 }
 
-RunResult CorrectedRun::run(const GroundMotion& motion) const
+std::vector<RunResult> CorrectedRun::run_all(std::span<const Shaking> shakings) const
 {
+    struct Passes {
+        std::optional<Choice> choice;
+        RunResult coarse, fine; ///< on few modes
+        double seconds = 0.0;
+    };
     const auto wanted = [&](double largest_slip) { return tolerance_ * std::max(largest_slip, smallest_slip_); };
-    const Stopwatch clock;
-    std::optional<Choice> choice;
-    const std::vector<RunResult> passes = few_.passes(motion, [&](std::span<const RunResult> so_far) {
-        choice = coarsest_within(so_far, order_, wanted(so_far.back().max_slip));
-        return choice || so_far.size() == most_passes;
-    });
-    const double seconds = clock.seconds();
-    if (!choice) return full_.run(motion);
-    const RunResult &coarse = passes[choice->coarse], &fine = passes.back();
-    RunResult run = full_.run_at(motion, {coarse.halvings, {}});
-    if (run.status == Status::interrupted) return run;
-    if (run.status != Status::at_rest) return full_.run(motion);
-    run.slip_error = choice->of_step + std::max(choice->of_correction, largest_difference(run.history.slip, coarse.history.slip));
-    if (run.slip_error > wanted(run.max_slip)) return full_.run(motion);
-    run.seconds.dynamics += seconds;
-    correct(full_.structure(), coarse, fine, motion.dt * static_cast<double>(motion.accel_h.size() - 1), run);
-    return run;
+    std::vector<Passes> few(shakings.size());
+    std::map<int, std::vector<std::size_t>> of_steps; ///< by halvings
+    std::vector<std::size_t> halved;
+    for (std::size_t i = 0; i < shakings.size(); ++i) {
+        const Stopwatch clock;
+        std::optional<Choice>& choice = few[i].choice;
+        std::vector<RunResult> passes = few_.passes(shakings[i], [&](std::span<const RunResult> so_far) {
+            choice = coarsest_within(so_far, order_of(shakings[i].contact, full_.structure().plane()), wanted(so_far.back().max_slip));
+            return choice || so_far.size() == most_passes;
+        });
+        if (choice) {
+            few[i].fine = std::move(passes.back());
+            few[i].coarse = std::move(passes[choice->coarse]);
+            of_steps[few[i].coarse.halvings].push_back(i);
+        } else {
+            halved.push_back(i);
+        }
+        few[i].seconds = clock.seconds();
+    }
+    const auto those = [&](const std::vector<std::size_t>& numbers) {
+        std::vector<Shaking> chosen;
+        for (const std::size_t i : numbers) chosen.push_back(shakings[i]);
+        return chosen;
+    };
+    std::vector<RunResult> results(shakings.size());
+    for (const auto& [halvings, numbers] : of_steps) {
+        std::vector<RunResult> runs = full_.run_all(those(numbers), ChosenSteps{halvings, {}});
+        for (std::size_t k = 0; k < runs.size(); ++k) {
+            const std::size_t i = numbers[k];
+            const auto& [choice, coarse, fine, seconds] = few[i];
+            RunResult& run = results[i] = std::move(runs[k]);
+            if (run.status == Status::interrupted) continue;
+            run.slip_error = choice->of_step + std::max(choice->of_correction, largest_difference(run.history.slip, coarse.history.slip));
+            if (run.status != Status::at_rest || run.slip_error > wanted(run.max_slip)) {
+                halved.push_back(i);
+                continue;
+            }
+            run.seconds.dynamics += seconds;
+            const GroundMotion& motion = *shakings[i].motion;
+            correct(full_.structure(), coarse, fine, motion.dt * static_cast<double>(motion.accel_h.size() - 1), run);
+        }
+    }
+    std::vector<RunResult> runs = halved.empty() ? std::vector<RunResult>() : full_.run_halved(those(halved));
+    for (std::size_t k = 0; k < runs.size(); ++k) results[halved[k]] = std::move(runs[k]);
+    return results;
 }
 
 } // namespace damslip::fe2d

@@ -2,6 +2,9 @@
 
 #include "fe2d/reduction/reduced_run.hpp"
 
+#include <span>
+#include <vector>
+
 namespace damslip::fe2d {
 
 /// The full run on steps that are larger than its slip needs, and the rest of the way on few modes of the dam:
@@ -19,16 +22,15 @@ namespace damslip::fe2d {
 /// until the slip stays.
 class CorrectedRun {
 public:
-    /// @param full  made from the same scene; kept by reference   @param options  of the runs on few modes
+    /// @param full  made from the same scene and options; kept by reference
     CorrectedRun(const EarthquakeRun& full, const Scene& scene, const RunOptions& options);
 
-    /// As EarthquakeRun::run; RunResult::correction says what was added.
-    RunResult run(const GroundMotion& motion) const;
+    /// As EarthquakeRun::run_all; RunResult::correction says what was added.
+    std::vector<RunResult> run_all(std::span<const Shaking> shakings) const;
 
 private:
     const EarthquakeRun& full_;
     double tolerance_, smallest_slip_;
-    double order_; ///< in the step that an estimate relies on at most
     ReducedRun few_;
 };
 

@@ -126,15 +126,15 @@ ReducedState ReducedRun::shake_with(int halvings, Motion& motion, const Start& s
     return end;
 }
 
-std::vector<RunResult> ReducedRun::passes(const GroundMotion& motion, const Enough& enough) const
+std::vector<RunResult> ReducedRun::passes(const Shaking& shaking, const Enough& enough) const
 {
     std::vector<RunResult> passes;
     RunResult standing;
     if (!model_) return passes;
     StaticContact statics(full_.static_operator(), scene_.contact, options_.contact);
-    const Start start = stand(statics, scene_.contact, standing);
+    const Start start = stand(statics, shaking.contact, standing);
     if (start.balance.status != StageStatus::ok) return passes;
-    Motion loop = motion_of(motion, {});
+    Motion loop = motion_of(*shaking.motion, {});
     for (int k = 0; k <= options_.largest_halvings; ++k) {
         Strength strength = start.strength;
         shake_with(k, loop, start, strength, passes.emplace_back());

@@ -48,7 +48,7 @@ public:
     using Enough = std::function<bool(std::span<const RunResult> passes)>;
     /// Passes with steps of Δt, Δt/2, Δt/4, ... until one does not come to rest, or `enough`: of each the history and the largest
     /// slip. None where nothing can move.
-    std::vector<RunResult> passes(const GroundMotion& motion, const Enough& enough) const;
+    std::vector<RunResult> passes(const Shaking& shaking, const Enough& enough) const;
     /// Why no run has an answer: a sentence for the user; empty: there is a model.
     const std::vector<Note>& why_not() const { return why_not_; }
 

@@ -537,16 +537,8 @@ std::size_t EarthquakeRun::runs_together() const
     return operators_ && in_motion().dam_unknowns() > in_cache ? columns : 1;
 }
 
-std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::span<const Contact> contacts,
-                                              const std::optional<ChosenSteps>& steps) const
-{
-    std::vector<Shaking> shakings;
-    for (const Contact& contact : contacts) shakings.push_back({&motion, contact});
-    return run_all(shakings, steps);
-}
-
-std::vector<RunResult> EarthquakeRun::run_all(std::span<const Shaking> shakings,
-                                              const std::optional<ChosenSteps>& steps) const
+std::vector<RunResult> EarthquakeRun::run_in_step(std::span<const Shaking> shakings,
+                                                  const std::optional<ChosenSteps>& steps) const
 {
     std::vector<RunResult> results(shakings.size());
     std::vector<std::unique_ptr<BatchedRun>> batch(shakings.size()); // null: it cannot move

@@ -2,6 +2,7 @@
 #include "fe2d/run/strength.hpp"
 #include "fe2d/run/slide_watch.hpp"
 #include "fe2d/run/static_relaxation.hpp"
+#include "fe2d/reduction/corrected_run.hpp"
 #include "fe2d/run/contact_structure.hpp"
 
 #include "core/input_error.hpp"
@@ -143,6 +144,8 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options) : scene_(sc
     }
     seconds_ = start.seconds();
 }
+
+EarthquakeRun::~EarthquakeRun() = default;
 
 /// Of the nodes that the dam faces, or may come to face.
 std::shared_ptr<const ReducedRock> EarthquakeRun::let_radiate()
@@ -459,6 +462,29 @@ VectorXd EarthquakeRun::zero_displacement(StaticContact& statics, const Strength
     if (solve_stage(statics, *structure_, stages_.names[0], load, trial, memory).status != StageStatus::ok) return {};
     const StaticState state = statics.displacements(load, memory);
     return structure_->assemble(state.dam, state.rock, stages_.loads[0]);
+}
+
+/// Null: steps are halved, or fixed.
+const CorrectedRun* EarthquakeRun::corrected() const
+{
+    if (!options_.corrects_steps || scene_.time.substeps || options_.start || !why_not_.empty() || !model_->mesh.contact.matching) return nullptr;
+    std::call_once(corrected_made_, [this] { corrected_ = std::make_unique<const CorrectedRun>(*this, scene_, options_); });
+    return corrected_.get();
+}
+
+std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::span<const Contact> contacts,
+                                              const std::optional<ChosenSteps>& steps) const
+{
+    std::vector<Shaking> shakings;
+    for (const Contact& contact : contacts) shakings.push_back({&motion, contact});
+    return run_all(shakings, steps);
+}
+
+std::vector<RunResult> EarthquakeRun::run_all(std::span<const Shaking> shakings,
+                                              const std::optional<ChosenSteps>& steps) const
+{
+    const CorrectedRun* corrected = steps ? nullptr : this->corrected();
+    return corrected ? corrected->run_all(shakings) : run_in_step(shakings, steps);
 }
 
 RunResult EarthquakeRun::run(const GroundMotion& motion, const std::optional<Contact>& contact) const

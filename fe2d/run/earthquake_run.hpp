@@ -27,6 +27,7 @@
 /// The staged run: gravity, water, uplift, earthquake, run-out, and the static state after it.
 namespace damslip::fe2d {
 
+class CorrectedRun; // fe2d/reduction/corrected_run.hpp
 class EarthquakePass;
 struct CoupledModes; // fe2d/fluid/coupled_modes.hpp
 struct PassSteps;
@@ -46,6 +47,7 @@ struct RunOptions {
     std::filesystem::path rock_cache; ///< folder of reduced rock (RockStore); empty: none
     int largest_halvings = 5;         ///< of sub-steps that are chosen
     double smallest_slip = 1e-6;      ///< errors below time.slip_tolerance of this do not matter [m]
+    bool corrects_steps = false;      ///< chosen ones, by CorrectedRun: of a dam that can be reduced
     std::optional<double> rest_time;  ///< the run-out ends when the dam has not slid for this long; none: window() [s]
     ContactOptions contact;
     std::optional<RunState> start; ///< as RunResult::state of a run before; none: a dam that no earthquake has shaken
@@ -150,6 +152,7 @@ class EarthquakeRun {
 public:
     /// @throws InputError for what the model cannot be made of; Interrupted
     EarthquakeRun(const Scene& scene, RunOptions options);
+    ~EarthquakeRun();
     EarthquakeRun(const EarthquakeRun&) = delete;
     EarthquakeRun& operator=(const EarthquakeRun&) = delete;
 
@@ -176,6 +179,7 @@ public:
     double rest_time() const { return options_.rest_time ? *options_.rest_time : window(); } ///< [s]
     int factorisations() const { return operators_ ? operators_->made() : 0; } ///< step sizes of all runs so far
 
+    /// With the steps of the scene, or such as leave time.slip_tolerance of the slip open.
     /// @param contact  strength; default: the scene's
     RunResult run(const GroundMotion& motion, const std::optional<Contact>& contact = {}) const;
 
@@ -187,6 +191,8 @@ public:
                                    const std::optional<ChosenSteps>& steps = {}) const;
     std::vector<RunResult> run_all(const GroundMotion& motion, std::span<const Contact> contacts,
                                    const std::optional<ChosenSteps>& steps = {}) const;
+    /// The same where steps are chosen, by halving them until the slip stays, not by CorrectedRun.
+    std::vector<RunResult> run_halved(std::span<const Shaking> shakings) const { return run_in_step(shakings, {}); }
     /// How many runs gain by going in step in one run_all(), where they differ in the motion, too: 1 where the factor stays in
     /// the processor's cache.
     std::size_t runs_together() const;
@@ -203,6 +209,8 @@ public:
 
 private:
     struct BatchedRun;
+    const CorrectedRun* corrected() const;
+    std::vector<RunResult> run_in_step(std::span<const Shaking> shakings, const std::optional<ChosenSteps>& steps) const;
     /// Rest before the earthquake in the terms of what moves.
     struct Rest {
         SplitLoad load;
@@ -263,6 +271,8 @@ private:
     std::vector<Note> why_not_; ///< of what is not usable
     double seconds_ = 0.0;
     std::optional<double> first_frequency_; ///< of dam and acoustic water, where the damping asked for it [rad/s]
+    mutable std::once_flag corrected_made_;
+    mutable std::unique_ptr<const CorrectedRun> corrected_; ///< made by the first run that chooses its steps
     mutable std::once_flag window_found_;
     mutable double window_ = 0.0; ///< see window() [s]
 };

@@ -25,7 +25,7 @@ const std::string scene = std::string(source_dir()) + "/tests/audit3/same_questi
 /// By polarity [mm].
 using Slips = std::map<int, double>;
 
-json ask(std::vector<std::string> command)
+json ask(std::vector<std::string> command, const std::string& scene = ::scene)
 {
     command.insert(command.begin() + 1, scene);
     command.insert(command.end(), {"--json", "--quiet"});
@@ -50,14 +50,20 @@ Slips slips_of(const json& rows, const char* key, double in_mm = 1.0, std::pair<
     return slips;
 }
 
+/// The scene, in other words, beside its record.
+void write_copy(const std::filesystem::path& folder, const std::string& text)
+{
+    std::filesystem::create_directories(folder);
+    std::filesystem::copy(std::filesystem::path(scene).parent_path() / "pulses.csv", folder);
+    write_file(folder / "dam.toml", text);
+}
+
 /// The rows of the level that is the record's own PGA. @param more  tables of the scene
 std::vector<std::map<std::string, std::string>> fragility_rows(const std::string& method, const std::string& more = "")
 {
     const std::filesystem::path folder =
         std::filesystem::temp_directory_path() / ("damslip_same_answer_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder);
-    std::filesystem::copy(std::filesystem::path(scene).parent_path() / "pulses.csv", folder);
-    write_file(folder / "dam.toml", read_file(scene) + more);
+    write_copy(folder, read_file(scene) + more);
     const ProgramAnswer a = answer_of({"fragility", folder / "dam.toml", "--method", method, "--out", folder / "out"});
     EXPECT_EQ(a.code, 0) << a.talk;
     auto rows = csv_rows(read_file(folder / "out" / "samples.csv"));
@@ -138,6 +144,36 @@ TEST(Audit3, TheSameQuestionHasTheSameAnswer)
         }
     EXPECT_EQ(stages, 2);
     for (const auto& row : samples) EXPECT_NEAR(std::stod(row.at("factor_after")), after, 1e-9 * after);
+}
+
+/// Where nothing says how small, the steps are chosen, and few modes of the dam correct their slip.
+TEST(Audit3, CorrectedStepsAreThoseOfEveryCommand)
+{
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("damslip_corrected_steps_" + std::to_string(::getpid()));
+    std::string text = read_file(scene);
+    const std::string fixed = "[time]\nsubsteps = 1\n";
+    ASSERT_NE(text.find(fixed), std::string::npos);
+    write_copy(folder, text.erase(text.find(fixed), fixed.size()));
+    const std::string dam = folder / "dam.toml";
+    const json runs = ask({"fe", "--no-mesh-error"}, dam)["runs"];
+    const Slips elastic = slips_of(runs, "slip_mm");
+    ASSERT_EQ(elastic.size(), 2u);
+    int corrected = 0;
+    for (const json& run : runs) corrected += run["step_correction_mm"].is_number();
+    EXPECT_GE(corrected, 1);
+    expect_same(elastic, slips_of(ask({"sweep", "--method", "fe"}, dam)["rows"], "slip_m", 1e3), "sweep");
+    expect_same(elastic, slips_of(ask({"accuracy", "--rung", "fe-added-mass:scene"}, dam)["runs"], "slip_mm"), "accuracy");
+    expect_same(elastic,
+                slips_of(ask({"explain", "--ablate", "--method", "fe"}, dam)["ablation"]["changes"], "slip_mm", 1.0,
+                         {"effect", "(all effects)"}),
+                "ablation");
+    const ProgramAnswer a = answer_of({"fragility", dam, "--method", "fe", "--out", folder / "out"});
+    ASSERT_EQ(a.code, 0) << a.talk;
+    auto rows = csv_rows(read_file(folder / "out" / "samples.csv"));
+    std::erase_if(rows, [](auto& row) { return row["factor"] != "1"; });
+    expect_same(elastic, slips_of(rows), "fragility");
+    std::filesystem::remove_all(folder);
 }
 
 } // namespace

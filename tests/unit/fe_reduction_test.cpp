@@ -1,6 +1,6 @@
 // The reduced run against the full one.
 #include "core/file.hpp"
-#include "fe2d/reduction/corrected_run.hpp"
+#include "fe2d/reduction/reduced_run.hpp"
 #include "fe2d/run/step_error.hpp"
 #include "scene/rock_mass.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
@@ -279,10 +279,11 @@ TEST(CorrectedRun, IsWithinItsErrorOfMuchSmallerSteps)
     for (const double friction : {0.65, 0.8})
         for (const double pga : {1.5, 2.5}) {
             const Scene scene = small_dam(friction);
-            const RunOptions options = options_of(scene);
+            RunOptions options = options_of(scene);
+            options.corrects_steps = true;
             const EarthquakeRun full(scene, options);
             const GroundMotion motion = sines(pga, 8.0);
-            const RunResult run = CorrectedRun(full, scene, options).run(motion);
+            const RunResult run = full.run(motion);
             if (!run.correction) continue;
             ++corrected;
             const RunResult fine = full.run_at(motion, {5, {}});
@@ -305,13 +306,42 @@ TEST(CorrectedRun, HalvesWhatItCannotCorrect)
     scene.time.slip_tolerance = 1e-5;
     RunOptions options = options_of(scene);
     options.largest_halvings = 3;
+    options.corrects_steps = true;
     const EarthquakeRun full(scene, options);
     const GroundMotion motion = sines(1.5, 4.0);
-    const RunResult run = CorrectedRun(full, scene, options).run(motion), halved = full.run(motion);
+    const Shaking shaking{&motion, scene.contact};
+    const RunResult run = full.run(motion), halved = full.run_halved({&shaking, 1}).front();
     EXPECT_FALSE(run.correction);
     EXPECT_EQ(run.slip, halved.slip);
     EXPECT_EQ(run.slip_error, halved.slip_error);
     EXPECT_EQ(run.status, halved.status);
+}
+
+/// Runs that go in step: some corrected, one that cannot be.
+TEST(CorrectedRun, HasTheSameBitsAloneAndBesideOthers)
+{
+    const Scene scene = small_dam(0.65);
+    RunOptions options = options_of(scene);
+    options.corrects_steps = true;
+    const EarthquakeRun full(scene, options);
+    const GroundMotion weak = sines(1.5, 6.0), strong = sines(2.5, 6.0);
+    Contact firm = scene.contact, loose = scene.contact;
+    firm.friction = 0.9;
+    loose.friction = 0.05; // does not stand
+    const std::vector<Shaking> shakings{{&weak, scene.contact}, {&strong, firm}, {&weak, loose}, {&strong, scene.contact}};
+    const std::vector<RunResult> together = full.run_all(shakings);
+    ASSERT_EQ(together.size(), shakings.size());
+    int corrected = 0;
+    for (std::size_t i = 0; i < shakings.size(); ++i) {
+        const RunResult alone = full.run(*shakings[i].motion, shakings[i].contact);
+        EXPECT_EQ(together[i].status, alone.status) << i;
+        EXPECT_EQ(together[i].slip, alone.slip) << i;
+        EXPECT_EQ(together[i].correction.has_value(), alone.correction.has_value()) << i;
+        EXPECT_TRUE(together[i].slip_error == alone.slip_error || std::isnan(alone.slip_error)) << i;
+        corrected += alone.correction.has_value();
+    }
+    EXPECT_GE(corrected, 2);
+    EXPECT_TRUE(fails_statically(together[2].status));
 }
 
 } // namespace

@@ -43,7 +43,7 @@ ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& wa
     watch.begin(options.reduced ? "fe --reduced" : "fe", static_cast<double>(whole()));
     watch.phase("set-up");
     options_.reducing_rock = tell_of_large_box(watch);
-    const fe2d::RunOptions plain = options_;
+    fe2d::RunOptions plain = options_;
     options_.start = options.start;
     if (options.pair_histories) options_.pair_series = fe2d::PairSeries::every_step;
     options_.frames = options.frames;
@@ -61,24 +61,12 @@ ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& wa
                                                 model_->structure().pairs()),
                                     "the state of the same model", "write the state anew with  --state-out"});
     wake_lifts();
-    if (const std::optional<Scene> exact = with_exact_contact(ready_.scene); exact && !reduced_)
+    if (const std::optional<Scene> exact = with_exact_contact(ready_.scene); exact && !reduced_) {
+        plain.corrects_steps = corrects_steps(*exact);
         exact_.emplace(*exact, plain);
-    if (corrects_steps()) {
-        fe2d::RunOptions of_few = plain;
-        of_few.progress = [this](const fe2d::RunProgress&) { return answer(watch_); };
-        corrected_.emplace(*model_, ready_.scene, of_few);
     }
     rigid_ = ready.rigid_model();
     combinations_ = ready.combinations();
-}
-
-/// The steps are chosen, by the slip of a dam of one piece that can be reduced.
-bool ContactRuns::corrects_steps() const
-{
-    const Scene& scene = ready_.scene;
-    return scene.time.stepping == Stepping::automatic && !scene.time.substeps && !options_.start && !reduced_ && !exact_ &&
-           scene.tied_lifts.empty() && scene.dam.crack != BodyCrack::traced && !why_not_reducible(scene) &&
-           model_->why_not().empty() && model_->model().mesh.contact.matching;
 }
 
 /// Runs every record on the model in which no more lifts wake.
@@ -208,7 +196,7 @@ void ContactRuns::run(const GroundMotion& motion, ContactRun& r)
 {
     meter_.begin(1);
     if (r.fe.stages.empty()) // else it has run while lifts were waking
-        r.fe = reduced_ ? reduced_->run(motion) : corrected_ ? corrected_->run(motion) : model_->run(motion);
+        r.fe = reduced_ ? reduced_->run(motion) : model_->run(motion);
     watch_.results_at_hand();
     r.mesh = coarser_.error_of(*model_, r.fe, motion);
     if (exact_ && !watch_.stop_asked()) r.exact = exact_->run(motion);

@@ -5,7 +5,7 @@
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/reducible.hpp"
 #include "core/watch.hpp"
-#include "fe2d/reduction/corrected_run.hpp"
+#include "fe2d/reduction/reduced_run.hpp"
 #include "fe2d/time/energy.hpp"
 
 #include <cstddef>
@@ -101,7 +101,6 @@ public:
 
 private:
     void run(const GroundMotion& motion, ContactRun& r);
-    bool corrects_steps() const;
     void wake_lifts();
     bool wake(const std::vector<fe2d::RunResult>& runs);
     bool crack(const std::vector<fe2d::RunResult>& runs);
@@ -122,8 +121,7 @@ private:
     fe2d::RunOptions options_;
     CoarserMesh coarser_;
     std::optional<fe2d::EarthquakeRun> model_, exact_;
-    std::optional<fe2d::ReducedRun> reduced_;     ///< on model_
-    std::optional<fe2d::CorrectedRun> corrected_; ///< on model_; none: its own steps are halved, or fixed
+    std::optional<fe2d::ReducedRun> reduced_; ///< on model_
     RigidModel rigid_;
     std::vector<sliding::Equilibrium> combinations_;
     std::vector<Found> found_; ///< by record; empty: no lift can wake

@@ -72,6 +72,12 @@ void check_reducible(const Scene& scene)
     if (const auto why_not = why_not_reducible(scene)) throw UsageError(*why_not);
 }
 
+bool corrects_steps(const Scene& scene)
+{
+    return scene.time.stepping == Stepping::automatic && !scene.time.substeps && !with_exact_contact(scene) &&
+           scene.tied_lifts.empty() && scene.dam.crack != BodyCrack::traced && !why_not_reducible(scene);
+}
+
 namespace {
 
 constexpr double elements_per_wave = 8.0;

@@ -18,6 +18,10 @@ std::optional<Diagnostic> why_not_reducible(const Scene& scene);
 /// @throws UsageError with that
 void check_reducible(const Scene& scene);
 
+/// Are the steps of its runs corrected (fe2d::CorrectedRun)? Chosen ones are, of a dam of one piece on exact contact that can be
+/// reduced.
+bool corrects_steps(const Scene& scene);
+
 /// What rock with mass asks of its box and mesh: waves that come back from fixed edges, and elements that are too long
 /// for the waves of this motion. Nothing for massless rock.
 std::vector<std::string> rock_warnings(const Scene& scene, const fe2d::Mesh& mesh, const GroundMotion& motion);
