@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace damslip::fe2d {
 
@@ -43,10 +44,17 @@ double at(const std::vector<double>& series, std::size_t row)
     return series[std::min(row, series.size() - 1)];
 }
 
+double largest_in(const std::vector<double>& slips)
+{
+    return std::accumulate(slips.begin(), slips.end(), 0.0,
+                           [](double largest, double slip) { return std::max(largest, std::abs(slip)); });
+}
+
 /// Slides the dam farther, as a rigid body.
 void correct(const ContactStructure& structure, const RunResult& coarse, const RunResult& fine, double record_end, RunResult& run)
 {
     RunHistory& history = run.history;
+    const double between_rows = run.max_slip - largest_in(history.slip);
     std::vector<double> change;
     for (std::size_t row = 0; row < history.time.size(); ++row)
         change.push_back(at(fine.history.slip, row) - at(coarse.history.slip, row));
@@ -65,7 +73,7 @@ void correct(const ContactStructure& structure, const RunResult& coarse, const R
     run.after.slip += all;
     run.correction = StepCorrection{all, fine.dt};
     run.slip += all;
-    run.max_slip = std::max(run.max_slip + fine.max_slip - coarse.max_slip, std::abs(run.slip));
+    run.max_slip = largest_in(history.slip) + between_rows;
     run.run_out.slip_shaking += shaken;
     run.run_out.slip_at_rest += all - shaken;
     for (Note& note : run.notes)
@@ -97,8 +105,19 @@ double order_of(const Contact& contact, const Plane& plane)
 
 CorrectedRun::CorrectedRun(const EarthquakeRun& full, const Scene& scene, const RunOptions& options)
     : full_(full), tolerance_(scene.time.slip_tolerance), smallest_slip_(options.smallest_slip),
-      few_(full, scene, of_few_modes(options))
+      progress_(options.progress), few_(full, scene, of_few_modes(options))
 {
+}
+
+/// Before the runs on few modes of the next of several; all of them are a small part of the run.
+bool CorrectedRun::stopped(std::size_t next, std::span<const Shaking> shakings) const
+{
+    if (!progress_) return false;
+    constexpr long parts = 10;
+    const auto step = static_cast<long>(next), steps = parts * static_cast<long>(shakings.size());
+    const GroundMotion& motion = *shakings[next].motion;
+    const double end = motion.dt * static_cast<double>(motion.accel_h.size() - 1);
+    return progress_({end * static_cast<double>(step) / static_cast<double>(steps), end, step, steps}) == RunAnswer::stop;
 }
 
 std::vector<RunResult> CorrectedRun::run_all(std::span<const Shaking> shakings) const
@@ -113,6 +132,10 @@ std::vector<RunResult> CorrectedRun::run_all(std::span<const Shaking> shakings) 
     std::map<int, std::vector<std::size_t>> of_steps; ///< by halvings
     std::vector<std::size_t> halved;
     for (std::size_t i = 0; i < shakings.size(); ++i) {
+        if (stopped(i, shakings)) {
+            for (; i < shakings.size(); ++i) halved.push_back(i);
+            break;
+        }
         const Stopwatch clock;
         std::optional<Choice>& choice = few[i].choice;
         std::vector<RunResult> passes = few_.passes(shakings[i], [&](std::span<const RunResult> so_far) {

@@ -29,8 +29,11 @@ public:
     std::vector<RunResult> run_all(std::span<const Shaking> shakings) const;
 
 private:
+    bool stopped(std::size_t next, std::span<const Shaking> shakings) const;
+
     const EarthquakeRun& full_;
     double tolerance_, smallest_slip_;
+    std::function<RunAnswer(const RunProgress&)> progress_;
     ReducedRun few_;
 };
 

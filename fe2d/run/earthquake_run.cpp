@@ -467,7 +467,8 @@ VectorXd EarthquakeRun::zero_displacement(StaticContact& statics, const Strength
 /// Null: steps are halved, or fixed.
 const CorrectedRun* EarthquakeRun::corrected() const
 {
-    if (!options_.corrects_steps || scene_.time.substeps || options_.start || !why_not_.empty() || !model_->mesh.contact.matching) return nullptr;
+    if (!options_.corrects_steps || scene_.time.substeps || options_.start || !why_not_.empty()) return nullptr;
+    if (!model_->mesh.contact.matching) return nullptr;
     std::call_once(corrected_made_, [this] { corrected_ = std::make_unique<const CorrectedRun>(*this, scene_, options_); });
     return corrected_.get();
 }
