@@ -53,6 +53,9 @@ ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions
                "the nodes of dam and rock do not face each other along the base, as a reduced run needs them to.",
                "the same nodes on both sides",
                "let dam and rock share the curve from heel to toe, or run without --reduced");
+    if (full.structure().pairs() > full.structure().plane().pairs() || !full.structure().plane().segments.empty())
+        refuse(scene.file, "the dam moves in more than one piece.", "a dam of one piece, as a reduced run needs it",
+               "run without --reduced");
     why_not_ = obstacle();
     if (!why_not_.empty()) return;
     DamModes kept = dam_modes(full.structure(), wanted_);

@@ -26,6 +26,9 @@ std::optional<Diagnostic> why_not_reducible(const Scene& scene)
                           expected,
                           "run without --reduced, or " + otherwise};
     };
+    if (scene.seam_body)
+        return not_with(fmt::format("--plane \"{}\"", scene.seam_body->name),
+                        "the base as the plane, the modes are those of a dam of one piece", "leave --plane out");
     if (scene.contact.sliding == JointPath::finite)
         return not_with("contact.sliding = \"finite\"",
                         "contact.sliding = \"small\", the modes are those of one place on the rock",
