@@ -2,7 +2,7 @@
 #include "analysis/prepare/ready.hpp"
 #include "core/input_error.hpp"
 #include "core/watch.hpp"
-#include "fe2d/run/earthquake_run.hpp"
+#include "fe2d/reduction/reduced_run.hpp"
 #include "sliding/planes/seam.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 #include "verification/exact/reference_scene.hpp"
@@ -346,6 +346,17 @@ TEST(FeSeam, SaysWhatFiniteElementsDoNotFollow)
     scene = elastic_seam(1.0);
     scene.mesh.element = ElementKind::q8;
     EXPECT_NE(message(scene).find("quadratic"), std::string::npos);
+}
+
+/// Its rock moves in blocks of its own: the modes of the dam are not enough, nor do they correct its steps.
+TEST(FeSeam, IsNotReduced)
+{
+    const Ready ready = ready_of(elastic_seam(1.0));
+    const Watch nobody;
+    const RunOptions options = ready.run_options(nobody);
+    EXPECT_FALSE(options.corrects_steps);
+    const EarthquakeRun run(ready.scene, options);
+    EXPECT_THROW(ReducedRun(run, ready.scene, options), InputError);
 }
 
 } // namespace
