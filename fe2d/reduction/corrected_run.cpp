@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace damslip::fe2d {
 
@@ -44,17 +43,16 @@ double at(const std::vector<double>& series, std::size_t row)
     return series[std::min(row, series.size() - 1)];
 }
 
-double largest_in(const std::vector<double>& slips)
+double beyond_the_end(const RunResult& run)
 {
-    return std::accumulate(slips.begin(), slips.end(), 0.0,
-                           [](double largest, double slip) { return std::max(largest, std::abs(slip)); });
+    return run.max_slip - std::abs(run.slip);
 }
 
 /// Slides the dam farther, as a rigid body.
 void correct(const ContactStructure& structure, const RunResult& coarse, const RunResult& fine, double record_end, RunResult& run)
 {
     RunHistory& history = run.history;
-    const double between_rows = run.max_slip - largest_in(history.slip);
+    const double beyond = beyond_the_end(run) + beyond_the_end(fine) - beyond_the_end(coarse);
     std::vector<double> change;
     for (std::size_t row = 0; row < history.time.size(); ++row)
         change.push_back(at(fine.history.slip, row) - at(coarse.history.slip, row));
@@ -73,7 +71,7 @@ void correct(const ContactStructure& structure, const RunResult& coarse, const R
     run.after.slip += all;
     run.correction = StepCorrection{all, fine.dt};
     run.slip += all;
-    run.max_slip = largest_in(history.slip) + between_rows;
+    run.max_slip = std::abs(run.slip) + std::max(0.0, beyond);
     run.run_out.slip_shaking += shaken;
     run.run_out.slip_at_rest += all - shaken;
     for (Note& note : run.notes)

@@ -59,13 +59,15 @@ void ReducedContact::right_hand_side(const StepConstants& c, const GroundAcceler
         };
         auto load = of_water(load_);
         water_ = c.a2 * of_water(s.q_v) + c.a3 * of_water(s.q_a);
-        load.noalias() = water->mass * water_;
-        load.noalias() -= water->stiffness * of_water(s.q);
+        load.setZero();
+        add_product(water->mass, water_, load);
+        water_ = -of_water(s.q);
+        add_product(water->stiffness, water_, load);
         load += weighted(&GroundAcceleration::displacement_v) * water->displacement_y -
                 weighted(&GroundAcceleration::velocity_h) * water->velocity_x +
                 weighted(&GroundAcceleration::velocity_v) * water->velocity_y;
     }
-    system_.add_radiation(rates_, load_);
+    system_.add_damping(rates_, load_);
     massless_ = (b_k * cv) * s.p_v + (b_k * ca) * s.p_a - s.p;
     known_ = alpha * s.contact.force + rest_force_;
     if (!system_.slips_damped()) return;
@@ -86,7 +88,7 @@ ContactReport ReducedContact::advance(double dt, const GroundAcceleration& groun
     slip_before_ = memory.slip;
     states_before_ = memory.states;
     right_hand_side(c, ground);
-    op.stuck_force(load_, massless_, known_, work_, stuck_);
+    op.stuck_force(load_, rates_, massless_, known_, work_, stuck_);
     subtract_columns(step.contact->stiffness(), memory.opening, stuck_);
 
     const Stopwatch before;

@@ -40,6 +40,7 @@ void ReducedSystem::add_water()
     of_face = MatrixXd::Zero(water_begin, water->count());
     of_face.topLeftCorner(dam_modes, shapes) = -modes.face * pressures;
     of_face.bottomLeftCorner(attached.rows(), shapes) = -attached;
+    on_face = of_face.transpose();
     modes.lengthen(water->count());
 }
 
@@ -67,22 +68,48 @@ void ReducedSystem::add_rock(const ReducedRock& rock, double highest)
     flexibility += residual;
 }
 
-void ReducedSystem::add_radiation(const VectorXd& velocity, VectorXd& force) const
+void ReducedSystem::add_damping(const VectorXd& velocity, VectorXd& force) const
 {
-    if (radiation.size() > 0) add_product(radiation, velocity.tail(radiation.rows()), force.tail(radiation.rows()));
+    if (rock_modes() > 0 && !rock_apart()) add_product(radiation, velocity.tail(radiation.rows()), force.tail(radiation.rows()));
     if (!water) return;
     const auto of_water = velocity.segment(water_begin, water->count());
     auto on_water = force.segment(water_begin, water->count());
     add_product(water->damping, of_water, on_water);
-    on_water.noalias() += of_face.transpose() * velocity.head(water_begin);
+    add_product(on_face, velocity.head(water_begin), on_water);
     add_product(of_face, of_water, force.head(water_begin));
     if (of_floor.size() == 0) return;
     on_water.noalias() += of_floor.transpose() * velocity.tail(of_floor.rows());
     add_product(of_floor, of_water, force.tail(of_floor.rows()));
 }
 
-ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system, const StepConstants& constants)
-    : system_(system), constants_(constants), to_modes_(system.modes.on_plane)
+PlaneShapes::PlaneShapes(const ReducedSystem& system)
+    : dam(system.water ? system.water_begin : system.modes.count() - system.rock_modes())
+{
+    constexpr double least = 1e-8;
+    const MatrixXd& on_plane = system.modes.on_plane;
+    to_dam = TransposedProduct(on_plane.leftCols(dam));
+    if (system.rock_modes() == 0) return;
+    MatrixXd left = on_plane.rightCols(system.rock_modes());
+    Index count = 0, largest = 0;
+    double norm = left.colwise().norm().maxCoeff(&largest);
+    for (const double first = norm; count < left.rows() && norm > least * first; ++count) { // Gram-Schmidt
+        VectorXd port = left.col(largest) / norm;
+        port -= ports * (ports.transpose() * port);
+        port.normalize();
+        ports.conservativeResize(left.rows(), count + 1);
+        ports.col(count) = port;
+        left -= port * (port.transpose() * left).eval();
+        norm = left.colwise().norm().maxCoeff(&largest);
+    }
+    ports.conservativeResizeLike(MatrixXd::Zero(left.rows(), count + count % 2)); // TransposedProduct takes two rows at a time
+    rock = ports.transpose() * on_plane.rightCols(system.rock_modes());
+    to_ports = TransposedProduct(ports);
+    to_rock = TransposedProduct(rock);
+}
+
+ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system, const PlaneShapes& shapes,
+                                 const StepConstants& constants)
+    : system_(system), shapes_(shapes), constants_(constants)
 {
     const double w = 1.0 + constants.scheme.alpha, a_m = system.damping.constants.mass,
                  stretch = w * (1.0 + constants.a1 * system.damping.constants.stiffness);
@@ -91,8 +118,9 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
     massless_factor_ = 1.0 / stretch;
     MatrixXd d = (w * constants.a1 * a_m) * system.modes.dam_mass;
     d.diagonal().array() += constants.a0 + stretch * system.modes.omega2.array();
-    const Index rock = system.radiation.rows();
+    const Index rock = system.rock_modes();
     if (rock > 0) d.bottomRightCorner(rock, rock) += w * constants.a1 * system.radiation;
+    if (system.rock_apart()) split_ = d.rows() - rock;
     MatrixXd inverse; // d⁻¹
     if (system.water) {
         const Index first = system.water_begin, water = system.water->count(), floor = system.of_floor.rows();
@@ -101,7 +129,6 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
         d.block(0, first, first, water) = (w * constants.a1) * system.of_face;
         if (floor > 0) d.block(d.rows() - floor, first, floor, water) = (w * constants.a1) * system.of_floor;
         d.middleRows(first, water) = d.middleCols(first, water).transpose().eval();
-        if (rock > 0 && floor == 0) split_ = d.rows() - rock;
         const VectorXd scale = d.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse(); // it is quasi-definite
         d = (scale.asDiagonal() * d * scale.asDiagonal()).eval();
         inverse = scale.asDiagonal() * d.partialPivLu().inverse() * scale.asDiagonal();
@@ -113,11 +140,16 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
     if (split_ > 0) inverse_of_rock_ = inverse.bottomRightCorner(rock, rock);
     MatrixXd flexibility = massless_factor_ * system.flexibility;
     const MatrixXd moving = on_plane * inverse; // Φ d⁻¹
-    to_steps_ = TransposedProduct(moving);
+    to_steps_ = split_ == 0 ? TransposedProduct(moving) : TransposedProduct(moving.leftCols(split_));
+    if (split_ > 0) {
+        to_rock_steps_ = TransposedProduct(shapes.rock * inverse_of_rock_);
+        rock_diagonal_ = constants.a0 + stretch * system.modes.omega2.tail(rock).array();
+    }
     flexibility.noalias() += moving * on_plane.transpose();
     MatrixXd stiffness = flexibility.llt().solve(MatrixXd::Identity(2 * m, 2 * m)); // W⁻¹
     stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
-    stiff_modes_ = stiffness * on_plane;
+    stiff_modes_ = stiffness * on_plane.leftCols(shapes.dam);
+    if (rock > 0) stiff_ports_ = stiffness * shapes.ports;
     if (system.slips_damped()) {
         k_ = w * constants.a1 * system.slip_damping;
         softened_motion_ = inverse * system.mean_motion;
@@ -148,16 +180,45 @@ void ReducedOperator::soften(const VectorXd& load, VectorXd& step) const
     add_product(inverse_of_rock_, load.tail(rock), step.tail(rock));
 }
 
-void ReducedOperator::stuck_force(const VectorXd& load, const VectorXd& massless, const VectorXd& known, Work& work,
-                                  VectorXd& stuck) const
+namespace {
+
+/// sum += (U A)ᵀ x, of Uᵀ and Aᵀ. @param ports, part  work space
+void add_through_ports(const TransposedProduct& to_ports, Index count, const TransposedProduct& from_ports, const VectorXd& x,
+                       VectorXd& ports, VectorXd& part, Eigen::Ref<VectorXd> sum)
+{
+    ports.setZero(count);
+    to_ports.add(x, ports);
+    part.setZero(sum.size());
+    from_ports.add(ports, part);
+    sum += part;
+}
+
+} // namespace
+
+void ReducedOperator::stuck_force(const VectorXd& load, const VectorXd& rates, const VectorXd& massless, const VectorXd& known,
+                                  Work& work, VectorXd& stuck) const
 {
     const double w = 1.0 + constants_.scheme.alpha;
+    const Index rock = system_.rock_modes();
     work.modal.setZero(load.size());
-    to_modes_.add(massless, work.modal);
+    shapes_.to_dam.add(massless, work.modal);
+    if (rock > 0)
+        add_through_ports(shapes_.to_ports, shapes_.ports.cols(), shapes_.to_rock, massless, work.ports, work.rock,
+                          work.modal.tail(rock));
     work.modal = load - work.modal;
+    if (split_ > 0) {
+        work.rates = rates.tail(rock) / (w * constants_.a1);
+        work.modal.tail(rock) -= rock_diagonal_.cwiseProduct(work.rates);
+    }
     soften(work.modal, work.free);
+    if (split_ > 0) work.free.tail(rock) += work.rates;
     stuck = massless;
-    add_product(stiff_modes_, work.free, stuck);
+    add_product(stiff_modes_, work.free.head(shapes_.dam), stuck);
+    if (rock > 0) {
+        work.ports.setZero(shapes_.ports.cols());
+        add_product(shapes_.rock, work.free.tail(rock), work.ports);
+        add_product(stiff_ports_, work.ports, stuck);
+    }
     if (system_.slips_damped()) {
         work.mean = softened_motion_.dot(load);
         stuck.tail(system_.weights.size()) += (k_ * (work.mean - z_.dot(stuck))) * system_.weights;
@@ -180,12 +241,15 @@ void ReducedOperator::finish(const VectorXd& massless, const VectorXd& known, co
     tilde += massless;
     modal_step = work.free;
     to_steps_.add(tilde, modal_step);
+    if (split_ > 0)
+        add_through_ports(shapes_.to_ports, shapes_.ports.cols(), to_rock_steps_, tilde, work.ports, work.rock,
+                          modal_step.tail(modal_step.size() - split_));
     if (system_.slips_damped()) modal_step += (k_ * slip) * softened_motion_;
     massless_step = massless_factor_ * tilde;
 }
 
 ReducedModel::ReducedModel(Plane plane, ReducedSystem system, const Scheme& scheme)
-    : plane_(std::move(plane)), system_(std::move(system)), scheme_(scheme)
+    : plane_(std::move(plane)), system_(std::move(system)), shapes_(system_), scheme_(scheme)
 {
 }
 
@@ -193,7 +257,7 @@ const ReducedOperator& ReducedModel::at(double dt) const
 {
     const std::scoped_lock lock(mutex_);
     auto& slot = operators_[dt];
-    if (!slot) slot = std::make_unique<const ReducedOperator>(plane_, system_, step_constants(scheme_, dt));
+    if (!slot) slot = std::make_unique<const ReducedOperator>(plane_, system_, shapes_, step_constants(scheme_, dt));
     return *slot;
 }
 

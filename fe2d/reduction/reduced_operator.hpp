@@ -30,6 +30,7 @@ struct ReducedSystem {
     Eigen::Index water_begin = 0;              ///< its first shape among `modes`
     Eigen::MatrixXd of_face,
         of_floor; ///< damping between the dam's modes, those of the rock, and the water's shapes; empty: none
+    Eigen::MatrixXd on_face; ///< of_faceᵀ
     Eigen::MatrixXd flexibility; ///< F_s = rock K_c⁻¹ or F_res + residual of the dam, in series, 2m x 2m [m²/N]
     RunDamping damping;
     double slip_damping = 0.0;   ///< k' of SlipDamping [N s/m per m]; 0: none
@@ -41,13 +42,27 @@ struct ReducedSystem {
     ReducedSystem(const ContactStructure& structure, DamModes modes, const RunDamping& damping,
                   const ReducedRock* radiating = nullptr, std::shared_ptr<const ReducedWater> water = {},
                   double highest = 0.0);
-    /// force += radiation, the water's own damping and its coupling by `velocity`.
-    void add_radiation(const Eigen::VectorXd& velocity, Eigen::VectorXd& force) const;
+    Eigen::Index rock_modes() const { return radiation.rows(); }
+    /// Is the rock coupled to dam and water through the plane alone? Else through the floor of acoustic water, too.
+    bool rock_apart() const { return rock_modes() > 0 && of_floor.size() == 0; }
+    /// force += radiation of rock that is not apart, the water's own damping and its coupling by `velocity`.
+    void add_damping(const Eigen::VectorXd& velocity, Eigen::VectorXd& force) const;
     bool slips_damped() const { return slip_damping != 0.0; }
 
 private:
     void add_water();
     void add_rock(const ReducedRock& rock, double highest);
+};
+
+/// Φ by parts: that of the dam's modes, none of the water's, and of radiating rock U P. The rock has many modes and few shapes on
+/// the plane: what is left of each is below 1e-8 of the largest.
+struct PlaneShapes {
+    explicit PlaneShapes(const ReducedSystem& system);
+
+    Eigen::Index dam = 0;  ///< modes before those of water and rock
+    Eigen::MatrixXd ports; ///< U, orthonormal, 2m x r; empty: the rock does not radiate
+    Eigen::MatrixXd rock;  ///< P, r x N
+    TransposedProduct to_dam, to_ports, to_rock; ///< Φᵀ of the dam, Uᵀ, Pᵀ
 };
 
 /// One step size of the reduced run: DynamicOperator with A_d = d, n x n, and the massless body
@@ -66,25 +81,30 @@ private:
 /// and Δq = d⁻¹ (b - Φᵀπ) + (Φ d⁻¹)ᵀ(λ̃ + π) + ... need products with Φ, W⁻¹Φ and Φ d⁻¹ only: 2m x n, nothing 2m x 2m but the
 /// contact problem itself. F_s is never inverted.
 ///
+/// Of rock that is apart b lacks the force Ĉ r of its dashpots by the rates r of the last step, for w a1 Ĉ = d - δ,
+/// δ = a0 + w (1 + a1 b_K) K̂:  d⁻¹ Ĉ r = (r - d⁻¹ δ r)/(w a1).
+///
 /// Nothing in it changes: runs and threads share it.
 class ReducedOperator {
 public:
     /// What a run lends to the functions below; kept from step to step, it is not allocated again.
     struct Work {
-        Eigen::VectorXd modal, plane;
-        Eigen::VectorXd free; ///< d⁻¹ (b - Φᵀπ)
+        Eigen::VectorXd modal, plane, ports, rock;
+        Eigen::VectorXd rates; ///< r over w a1
+        Eigen::VectorXd free;  ///< d⁻¹ (b - Φᵀπ)
         double mean = 0.0;    ///< μᵀd⁻¹ b [m]
     };
 
-    ReducedOperator(const Plane& plane, const ReducedSystem& system, const StepConstants& constants);
+    ReducedOperator(const Plane& plane, const ReducedSystem& system, const PlaneShapes& shapes, const StepConstants& constants);
 
     const StepConstants& constants() const { return constants_; }
     const std::shared_ptr<const Eigen::MatrixXd>& stiffness() const { return stiffness_; } ///< V of the contact problem
 
     /// λ⁰ for a gap that stays as it is.
-    /// @param load  b [..], modal @param massless  π [N/m] @param known  α λ₀ + λ_rest - (slip damping) [N/m]
-    void stuck_force(const Eigen::VectorXd& load, const Eigen::VectorXd& massless, const Eigen::VectorXd& known,
-                     Work& work, Eigen::VectorXd& stuck) const;
+    /// @param load  b [..], modal @param rates  of all modes, r among them @param massless  π [N/m]
+    /// @param known  α λ₀ + λ_rest - (slip damping) [N/m]
+    void stuck_force(const Eigen::VectorXd& load, const Eigen::VectorXd& rates, const Eigen::VectorXd& massless,
+                     const Eigen::VectorXd& known, Work& work, Eigen::VectorXd& stuck) const;
 
     /// Δq and Δp for λ₁ = `force`; `slip` = ωᵀΔg_t [m]. @param work  as stuck_force() left it; of no load: zero
     void finish(const Eigen::VectorXd& massless, const Eigen::VectorXd& known, const Eigen::VectorXd& force, double slip,
@@ -94,13 +114,16 @@ private:
     void soften(const Eigen::VectorXd& load, Eigen::VectorXd& step) const;
 
     const ReducedSystem& system_;
+    const PlaneShapes& shapes_;
     StepConstants constants_;
-    TransposedProduct to_modes_; ///< Φᵀ
-    TransposedProduct to_steps_; ///< (Φ d⁻¹)ᵀ
     Eigen::MatrixXd inverse_;    ///< d⁻¹; of two blocks the first
     Eigen::Index split_ = 0;     ///< of two blocks, dam with water and rock, where the second begins; 0: there is one
     Eigen::MatrixXd inverse_of_rock_;
-    Eigen::MatrixXd stiff_modes_; ///< W⁻¹Φ
+    TransposedProduct to_steps_;      ///< (Φ d⁻¹)ᵀ; of two blocks the first
+    TransposedProduct to_rock_steps_; ///< (P d⁻¹)ᵀ of the second
+    Eigen::MatrixXd stiff_modes_;     ///< W⁻¹Φ of the dam
+    Eigen::MatrixXd stiff_ports_;     ///< W⁻¹U
+    Eigen::VectorXd rock_diagonal_;   ///< δ
     double k_ = 0.0, zeta_ = 0.0, massless_factor_ = 1.0;
     Eigen::VectorXd softened_motion_; ///< d⁻¹ μ
     Eigen::VectorXd z_;               ///< Φ d⁻¹ μ
@@ -122,6 +145,7 @@ public:
 private:
     Plane plane_;
     ReducedSystem system_;
+    PlaneShapes shapes_;
     Scheme scheme_;
     mutable std::mutex mutex_;
     mutable std::map<double, std::unique_ptr<const ReducedOperator>> operators_;
