@@ -90,6 +90,7 @@ PlaneShapes::PlaneShapes(const ReducedSystem& system)
     to_dam = TransposedProduct(on_plane.leftCols(dam));
     if (system.rock_modes() == 0) return;
     MatrixXd left = on_plane.rightCols(system.rock_modes());
+    ports.resize(left.rows(), 0);
     Index count = 0, largest = 0;
     double norm = left.colwise().norm().maxCoeff(&largest);
     for (const double first = norm; count < left.rows() && norm > least * first; ++count) { // Gram-Schmidt
