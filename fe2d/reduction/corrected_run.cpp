@@ -49,7 +49,7 @@ double beyond_the_end(const RunResult& run)
 }
 
 /// Slides the dam farther, as a rigid body.
-void correct(const ContactStructure& structure, const RunResult& coarse, const RunResult& fine, double record_end, RunResult& run)
+void slide_farther(const ContactStructure& structure, const RunResult& coarse, const RunResult& fine, double record_end, RunResult& run)
 {
     RunHistory& history = run.history;
     const double beyond = beyond_the_end(run) + beyond_the_end(fine) - beyond_the_end(coarse);
@@ -78,10 +78,6 @@ void correct(const ContactStructure& structure, const RunResult& coarse, const R
         if (note.kind == NoteKind::slip_at_rest) note.values.front() = 1e3 * run.slip;
 }
 
-} // namespace
-
-namespace {
-
 /// Those of the runs on few modes, which have no frames and no series, and whose progress only asks whether to stop.
 RunOptions of_few_modes(RunOptions options)
 {
@@ -94,17 +90,29 @@ RunOptions of_few_modes(RunOptions options)
     return options;
 }
 
-double order_of(const Contact& contact, const Plane& plane)
+double duration(const GroundMotion& motion)
 {
-    return Strength(contact, plane).constant() ? contact_order : sudden_order;
+    return motion.dt * static_cast<double>(motion.accel_h.size() - 1);
 }
 
 } // namespace
+
+/// What runs on few modes tell of one shaking.
+struct CorrectedRun::OnFewModes {
+    double of_step = 0.0, of_correction = 0.0; ///< error [m]
+    RunResult coarse, fine;
+    double seconds = 0.0;
+};
 
 CorrectedRun::CorrectedRun(const EarthquakeRun& full, const Scene& scene, const RunOptions& options)
     : full_(full), tolerance_(scene.time.slip_tolerance), smallest_slip_(options.smallest_slip),
       progress_(options.progress), few_(full, scene, of_few_modes(options))
 {
+}
+
+double CorrectedRun::wanted(double largest_slip) const
+{
+    return tolerance_ * std::max(largest_slip, smallest_slip_);
 }
 
 /// Before the runs on few modes of the next of several; all of them are a small part of the run.
@@ -113,66 +121,63 @@ bool CorrectedRun::stopped(std::size_t next, std::span<const Shaking> shakings) 
     if (!progress_) return false;
     constexpr long parts = 10;
     const auto step = static_cast<long>(next), steps = parts * static_cast<long>(shakings.size());
-    const GroundMotion& motion = *shakings[next].motion;
-    const double end = motion.dt * static_cast<double>(motion.accel_h.size() - 1);
+    const double end = duration(*shakings[next].motion);
     return progress_({end * static_cast<double>(step) / static_cast<double>(steps), end, step, steps}) == RunAnswer::stop;
+}
+
+std::optional<CorrectedRun::OnFewModes> CorrectedRun::on_few_modes(const Shaking& shaking) const
+{
+    const Stopwatch clock;
+    const bool constant = Strength(shaking.contact, full_.structure().plane()).constant();
+    std::optional<Choice> choice;
+    std::vector<RunResult> passes = few_.passes(shaking, [&](std::span<const RunResult> so_far) {
+        choice = coarsest_within(so_far, constant ? contact_order : sudden_order, wanted(so_far.back().max_slip));
+        return choice || so_far.size() == most_passes;
+    });
+    if (!choice) return std::nullopt;
+    return OnFewModes{choice->of_step, choice->of_correction, std::move(passes[choice->coarse]), std::move(passes.back()),
+                      clock.seconds()};
+}
+
+/// The full run at the steps of few.coarse. @returns whether its slip is within the tolerance now
+bool CorrectedRun::correct(const GroundMotion& motion, const OnFewModes& few, RunResult& run) const
+{
+    if (run.status == Status::interrupted) return true;
+    if (run.status != Status::at_rest) return false;
+    run.slip_error = few.of_step + std::max(few.of_correction, largest_difference(run.history.slip, few.coarse.history.slip));
+    if (run.slip_error > wanted(run.max_slip)) return false;
+    run.seconds.dynamics += few.seconds;
+    slide_farther(full_.structure(), few.coarse, few.fine, duration(motion), run);
+    return true;
 }
 
 std::vector<RunResult> CorrectedRun::run_all(std::span<const Shaking> shakings) const
 {
-    struct Passes {
-        std::optional<Choice> choice;
-        RunResult coarse, fine; ///< on few modes
-        double seconds = 0.0;
-    };
-    const auto wanted = [&](double largest_slip) { return tolerance_ * std::max(largest_slip, smallest_slip_); };
-    std::vector<Passes> few(shakings.size());
-    std::map<int, std::vector<std::size_t>> of_steps; ///< by halvings
+    std::vector<RunResult> results(shakings.size());
+    std::vector<std::optional<OnFewModes>> few(shakings.size());
+    std::map<int, std::vector<std::size_t>> of_steps; ///< numbers of shakings, by halvings
     std::vector<std::size_t> halved;
+    bool stop = false;
     for (std::size_t i = 0; i < shakings.size(); ++i) {
-        if (stopped(i, shakings)) {
-            for (; i < shakings.size(); ++i) halved.push_back(i);
-            break;
-        }
-        const Stopwatch clock;
-        std::optional<Choice>& choice = few[i].choice;
-        std::vector<RunResult> passes = few_.passes(shakings[i], [&](std::span<const RunResult> so_far) {
-            choice = coarsest_within(so_far, order_of(shakings[i].contact, full_.structure().plane()), wanted(so_far.back().max_slip));
-            return choice || so_far.size() == most_passes;
-        });
-        if (choice) {
-            few[i].fine = std::move(passes.back());
-            few[i].coarse = std::move(passes[choice->coarse]);
-            of_steps[few[i].coarse.halvings].push_back(i);
-        } else {
-            halved.push_back(i);
-        }
-        few[i].seconds = clock.seconds();
+        stop = stop || stopped(i, shakings);
+        if (!stop) few[i] = on_few_modes(shakings[i]);
+        (few[i] ? of_steps[few[i]->coarse.halvings] : halved).push_back(i);
     }
     const auto those = [&](const std::vector<std::size_t>& numbers) {
         std::vector<Shaking> chosen;
         for (const std::size_t i : numbers) chosen.push_back(shakings[i]);
         return chosen;
     };
-    std::vector<RunResult> results(shakings.size());
     for (const auto& [halvings, numbers] : of_steps) {
         std::vector<RunResult> runs = full_.run_all(those(numbers), ChosenSteps{halvings, {}});
         for (std::size_t k = 0; k < runs.size(); ++k) {
             const std::size_t i = numbers[k];
-            const auto& [choice, coarse, fine, seconds] = few[i];
-            RunResult& run = results[i] = std::move(runs[k]);
-            if (run.status == Status::interrupted) continue;
-            run.slip_error = choice->of_step + std::max(choice->of_correction, largest_difference(run.history.slip, coarse.history.slip));
-            if (run.status != Status::at_rest || run.slip_error > wanted(run.max_slip)) {
-                halved.push_back(i);
-                continue;
-            }
-            run.seconds.dynamics += seconds;
-            const GroundMotion& motion = *shakings[i].motion;
-            correct(full_.structure(), coarse, fine, motion.dt * static_cast<double>(motion.accel_h.size() - 1), run);
+            results[i] = std::move(runs[k]);
+            if (!correct(*shakings[i].motion, *few[i], results[i])) halved.push_back(i);
         }
     }
-    std::vector<RunResult> runs = halved.empty() ? std::vector<RunResult>() : full_.run_halved(those(halved));
+    if (halved.empty()) return results;
+    std::vector<RunResult> runs = full_.run_halved(those(halved));
     for (std::size_t k = 0; k < runs.size(); ++k) results[halved[k]] = std::move(runs[k]);
     return results;
 }

@@ -29,7 +29,11 @@ public:
     std::vector<RunResult> run_all(std::span<const Shaking> shakings) const;
 
 private:
+    struct OnFewModes;
+    double wanted(double largest_slip) const; ///< error that the scene allows [m]
     bool stopped(std::size_t next, std::span<const Shaking> shakings) const;
+    std::optional<OnFewModes> on_few_modes(const Shaking& shaking) const; ///< none: they do not settle within the tolerance
+    bool correct(const GroundMotion& motion, const OnFewModes& few, RunResult& run) const;
 
     const EarthquakeRun& full_;
     double tolerance_, smallest_slip_;
