@@ -57,7 +57,7 @@ Scene scene_of(const Scene& given, const ModelLevel& model_level)
     if (model_level.step == StepChoice::as_the_scene) return scene;
     scene = with_exact_contact(scene).value_or(scene);
     scene.time.substeps.reset();
-    scene.time.stepping = model_level.step == StepChoice::adaptive ? Stepping::adaptive : Stepping::uniform;
+    scene.time.stepping = model_level.step == StepChoice::adaptive ? Stepping::adaptive : Stepping::automatic;
     if (model_level.step == StepChoice::fixed) scene.time.substeps = model_level.halvings;
     if (model_level.mesh != 1.0) scale_mesh(model_level.mesh, scene);
     set_element(model_level.element, scene);

@@ -16,7 +16,7 @@ enum class RigidScheme { rocking, exact, slammer };              ///< the first:
 enum class ModelLevelWater { dry, hydrostatic, added_mass, acoustic }; ///< how the water takes part in the shaking
 enum class StepChoice {
     fixed,        ///< dt / 2^halvings
-    by_tolerance, ///< halved until the slip is within time.slip_tolerance: the default of `fe`
+    by_tolerance, ///< chosen so that the slip is within time.slip_tolerance: the default of `fe`
     adaptive,     ///< the same, sub-steps spread by their local error
     as_the_scene  ///< step, contact law and all else as the scene says, where it differs from the hierarchy's settings
 };
