@@ -33,10 +33,11 @@ protected:
     {
         ASSERT_EQ(a.size(), b.size());
         for (std::size_t i = 0; i < a.size(); ++i)
-            if (a[i].contains(key) && a[i][key].is_number() && a[i].dump().find("cracked") == std::string::npos)
+            if (a[i].contains(key) && a[i][key].is_number() && a[i].dump().find("cracked") == std::string::npos) {
                 EXPECT_NEAR(a[i][key].get<double>(), factor * b[i][key].get<double>(),
                             tolerance * (1e-6 + std::abs(a[i][key].get<double>())))
                     << key << " of row " << i;
+            }
     }
 };
 
