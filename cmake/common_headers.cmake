@@ -1,5 +1,6 @@
-# Headers of other libraries that most files include, compiled once for all targets with the same flags: an eighth of the build. Not where files
-# are compiled one by one (the dev preset): there each has to include what it needs. Not with ccache, which keeps nothing compiled so.
+# Headers of other libraries that most files include, compiled once for all targets with the same flags: a second or more less for each file.
+# Not where files are compiled one by one (the dev preset): there each has to include what it needs. Not with ccache, which by its default
+# keeps nothing that was compiled so.
 set(DAMSLIP_COMMON_HEADERS <algorithm> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <optional> <span> <string> <vector>
     <fmt/format.h>)
 

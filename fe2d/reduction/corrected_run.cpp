@@ -43,6 +43,7 @@ double at(const std::vector<double>& series, std::size_t row)
     return series[std::min(row, series.size() - 1)];
 }
 
+/// How much farther than its end the dam was on the way [m].
 double beyond_the_end(const RunResult& run)
 {
     return run.max_slip - std::abs(run.slip);
@@ -78,7 +79,7 @@ void slide_farther(const ContactStructure& structure, const RunResult& coarse, c
         if (note.kind == NoteKind::slip_at_rest) note.values.front() = 1e3 * run.slip;
 }
 
-/// Those of the runs on few modes, which have no frames and no series, and whose progress only asks whether to stop.
+/// Options of the runs on few modes. They keep no frames and no series, and their progress only asks whether to stop.
 RunOptions of_few_modes(RunOptions options)
 {
     options.frames = 0;
@@ -97,7 +98,7 @@ double duration(const GroundMotion& motion)
 
 } // namespace
 
-/// What runs on few modes tell of one shaking.
+/// The runs on few modes of one shaking: with the steps of the full run, and with the smallest.
 struct CorrectedRun::OnFewModes {
     double of_step = 0.0, of_correction = 0.0; ///< error [m]
     RunResult coarse, fine;
@@ -115,7 +116,8 @@ double CorrectedRun::wanted(double largest_slip) const
     return tolerance_ * std::max(largest_slip, smallest_slip_);
 }
 
-/// Before the runs on few modes of the next of several; all of them are a small part of the run.
+/// Tells the progress before the runs on few modes of shaking `next`: those of all shakings count as a tenth of the work.
+/// @returns whether to stop
 bool CorrectedRun::stopped(std::size_t next, std::span<const Shaking> shakings) const
 {
     if (!progress_) return false;

@@ -43,7 +43,7 @@ struct ReducedSystem {
                   const ReducedRock* radiating = nullptr, std::shared_ptr<const ReducedWater> water = {},
                   double highest = 0.0);
     Eigen::Index rock_modes() const { return radiation.rows(); }
-    /// Is the rock coupled to dam and water through the plane alone? Else through the floor of acoustic water, too.
+    /// Does the rock radiate, and meet dam and water on the plane alone? Else the floor of acoustic water couples it, too.
     bool rock_apart() const { return rock_modes() > 0 && of_floor.size() == 0; }
     /// force += radiation of rock that is not apart, the water's own damping and its coupling by `velocity`.
     void add_damping(const Eigen::VectorXd& velocity, Eigen::VectorXd& force) const;
@@ -54,8 +54,8 @@ private:
     void add_rock(const ReducedRock& rock, double highest);
 };
 
-/// Φ by parts: that of the dam's modes, none of the water's, and of radiating rock U P. The rock has many modes and few shapes on
-/// the plane: what is left of each is below 1e-8 of the largest.
+/// Φ in parts. The dam's modes have their own columns. The water's shapes have none. Radiating rock has many modes, but they make
+/// few shapes on the plane, so its part is U P. What U P leaves of a mode is below 1e-8 of the rock's largest mode there.
 struct PlaneShapes {
     explicit PlaneShapes(const ReducedSystem& system);
 
@@ -81,8 +81,8 @@ struct PlaneShapes {
 /// and Δq = d⁻¹ (b - Φᵀπ) + (Φ d⁻¹)ᵀ(λ̃ + π) + ... need products with Φ, W⁻¹Φ and Φ d⁻¹ only: 2m x n, nothing 2m x 2m but the
 /// contact problem itself. F_s is never inverted.
 ///
-/// Of rock that is apart b lacks the force Ĉ r of its dashpots by the rates r of the last step, for w a1 Ĉ = d - δ,
-/// δ = a0 + w (1 + a1 b_K) K̂:  d⁻¹ Ĉ r = (r - d⁻¹ δ r)/(w a1).
+/// The dashpots of rock_apart() add the force Ĉ r by the rates r at the start of the step. It needs no product with Ĉ, and b does
+/// not hold it: w a1 Ĉ = d - δ, δ = a0 + w (1 + a1 b_K) K̂, so  d⁻¹ Ĉ r = (r - d⁻¹ δ r)/(w a1).
 ///
 /// Nothing in it changes: runs and threads share it.
 class ReducedOperator {

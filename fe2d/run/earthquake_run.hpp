@@ -47,7 +47,7 @@ struct RunOptions {
     std::filesystem::path rock_cache; ///< folder of reduced rock (RockStore); empty: none
     int largest_halvings = 5;         ///< of sub-steps that are chosen
     double smallest_slip = 1e-6;      ///< errors below time.slip_tolerance of this do not matter [m]
-    bool corrects_steps = false;      ///< chosen ones, by CorrectedRun: of a dam that can be reduced
+    bool corrects_steps = false;      ///< CorrectedRun takes the place of halving, where steps are chosen
     std::optional<double> rest_time;  ///< the run-out ends when the dam has not slid for this long; none: window() [s]
     ContactOptions contact;
     std::optional<RunState> start; ///< as RunResult::state of a run before; none: a dam that no earthquake has shaken
@@ -179,7 +179,7 @@ public:
     double rest_time() const { return options_.rest_time ? *options_.rest_time : window(); } ///< [s]
     int factorisations() const { return operators_ ? operators_->made() : 0; } ///< step sizes of all runs so far
 
-    /// With the steps of the scene, or such as leave time.slip_tolerance of the slip open.
+    /// Takes the steps that the scene fixes, or chooses them by time.slip_tolerance.
     /// @param contact  strength; default: the scene's
     RunResult run(const GroundMotion& motion, const std::optional<Contact>& contact = {}) const;
 
@@ -191,7 +191,7 @@ public:
                                    const std::optional<ChosenSteps>& steps = {}) const;
     std::vector<RunResult> run_all(const GroundMotion& motion, std::span<const Contact> contacts,
                                    const std::optional<ChosenSteps>& steps = {}) const;
-    /// The same where steps are chosen, by halving them until the slip stays, not by CorrectedRun.
+    /// The same without CorrectedRun: chosen steps are halved until the slip stays.
     std::vector<RunResult> run_halved(std::span<const Shaking> shakings) const { return run_in_step(shakings, {}); }
     /// How many runs gain by going in step in one run_all(), where they differ in the motion, too: 1 where the factor stays in
     /// the processor's cache.

@@ -140,7 +140,7 @@ std::vector<KeyGroup> fe_groups()
          without_substeps(
              word("stepping", "auto",
                   "how sub-steps are chosen: auto: uniform ones, and runs on few modes of the dam with smaller ones correct the slip "
-                  "of fe where the dam can be reduced; uniform: halved until the slip stays; adaptive: small ones only where the "
+                  "where the dam can be reduced; uniform: halved until the slip stays; adaptive: small ones only where the "
                   "local error of the slip asks for them, around its beginnings, ends and turns",
                   "\"uniform\"",
                   choice(&TimeOptions::stepping,

@@ -99,8 +99,9 @@ std::optional<double> crest_motion(const fe2d::RunHistory& history)
 void take(const fe2d::RunResult& r, double run_out, MotionOutcome& outcome)
 {
     take(r.status, r.slip, r.max_slip, outcome);
-    outcome.halvings = r.halvings; // small enough for the tolerance without correction
-    if (r.correction) outcome.halvings += static_cast<int>(std::lround(std::log2(r.dt / r.correction->dt)));
+    outcome.halvings = r.halvings;
+    if (r.correction) // to the smallest step of the correction: a run alone needs that for the tolerance
+        outcome.halvings += static_cast<int>(std::lround(std::log2(r.dt / r.correction->dt)));
     outcome.still_sliding = r.status == Status::sliding_at_end && run_out > 0.0;
     if (r.status != Status::at_rest) outcome.message = text_of(r.notes);
     if (!outcome.slip) return;

@@ -30,7 +30,7 @@ struct MotionOutcome : MotionName {
     std::vector<double> lift_slips = {};     ///< of the lift joints, final, from bottom to top [m]
     std::optional<Effect> without = {};      ///< the effect that is left out; none: another kind of change
     bool still_sliding = false;              ///< when the run-out ended: the slip is a lower bound
-    int halvings = 0;                        ///< the step was dt / 2^halvings
+    int halvings = 0;                        ///< dt / 2^halvings: the step, or the smallest that corrected it
     double seconds = 0.0;                    ///< of the processor for this run, without the set-up
 
     /// Why there is no slip: of a rigid block that does not stand its friction beside the one that would hold it.

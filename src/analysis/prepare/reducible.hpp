@@ -18,8 +18,8 @@ std::optional<Diagnostic> why_not_reducible(const Scene& scene);
 /// @throws UsageError with that
 void check_reducible(const Scene& scene);
 
-/// Are the steps of its runs corrected (fe2d::CorrectedRun)? Chosen ones are, of a dam of one piece on exact contact that can be
-/// reduced.
+/// Do its runs correct their steps (fe2d::CorrectedRun)? They do where steps are chosen, contact is exact, and the dam can be
+/// reduced and stays in one piece.
 bool corrects_steps(const Scene& scene);
 
 /// What rock with mass asks of its box and mesh: waves that come back from fixed edges, and elements that are too long
