@@ -184,4 +184,9 @@ std::vector<RunResult> CorrectedRun::run_all(std::span<const Shaking> shakings) 
     return results;
 }
 
+std::unique_ptr<const StepCorrector> corrected_run(const EarthquakeRun& full, const Scene& scene, const RunOptions& options)
+{
+    return std::make_unique<const CorrectedRun>(full, scene, options);
+}
+
 } // namespace damslip::fe2d

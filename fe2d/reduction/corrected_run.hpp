@@ -20,13 +20,13 @@ namespace damslip::fe2d {
 ///
 /// Where the error is not within the tolerance, or something does not come to rest, the full run goes its own way: steps halved
 /// until the slip stays.
-class CorrectedRun {
+class CorrectedRun final : public StepCorrector {
 public:
     /// @param full  made from the same scene and options; kept by reference
     CorrectedRun(const EarthquakeRun& full, const Scene& scene, const RunOptions& options);
 
     /// As EarthquakeRun::run_all; RunResult::correction says what was added.
-    std::vector<RunResult> run_all(std::span<const Shaking> shakings) const;
+    std::vector<RunResult> run_all(std::span<const Shaking> shakings) const override;
 
 private:
     struct OnFewModes;
@@ -40,5 +40,8 @@ private:
     std::function<RunAnswer(const RunProgress&)> progress_;
     ReducedRun few_;
 };
+
+/// For RunOptions::corrector.
+std::unique_ptr<const StepCorrector> corrected_run(const EarthquakeRun& full, const Scene& scene, const RunOptions& options);
 
 } // namespace damslip::fe2d

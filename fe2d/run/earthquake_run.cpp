@@ -2,7 +2,6 @@
 #include "fe2d/run/strength.hpp"
 #include "fe2d/run/slide_watch.hpp"
 #include "fe2d/run/static_relaxation.hpp"
-#include "fe2d/reduction/corrected_run.hpp"
 #include "fe2d/run/contact_structure.hpp"
 
 #include "core/input_error.hpp"
@@ -465,12 +464,12 @@ VectorXd EarthquakeRun::zero_displacement(StaticContact& statics, const Strength
 }
 
 /// Null: steps are halved, or fixed.
-const CorrectedRun* EarthquakeRun::corrected() const
+const StepCorrector* EarthquakeRun::corrector() const
 {
-    if (!options_.corrects_steps || scene_.time.substeps || options_.start || !why_not_.empty()) return nullptr;
+    if (!options_.corrector || scene_.time.substeps || options_.start || !why_not_.empty()) return nullptr;
     if (!model_->mesh.contact.matching) return nullptr;
-    std::call_once(corrected_made_, [this] { corrected_ = std::make_unique<const CorrectedRun>(*this, scene_, options_); });
-    return corrected_.get();
+    std::call_once(corrector_made_, [this] { corrector_ = options_.corrector(*this, scene_, options_); });
+    return corrector_.get();
 }
 
 std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::span<const Contact> contacts,
@@ -484,8 +483,8 @@ std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::s
 std::vector<RunResult> EarthquakeRun::run_all(std::span<const Shaking> shakings,
                                               const std::optional<ChosenSteps>& steps) const
 {
-    const CorrectedRun* corrected = steps ? nullptr : this->corrected();
-    return corrected ? corrected->run_all(shakings) : run_in_step(shakings, steps);
+    const StepCorrector* corrector = steps ? nullptr : this->corrector();
+    return corrector ? corrector->run_all(shakings) : run_in_step(shakings, steps);
 }
 
 RunResult EarthquakeRun::run(const GroundMotion& motion, const std::optional<Contact>& contact) const

@@ -27,8 +27,9 @@
 /// The staged run: gravity, water, uplift, earthquake, run-out, and the static state after it.
 namespace damslip::fe2d {
 
-class CorrectedRun; // fe2d/reduction/corrected_run.hpp
 class EarthquakePass;
+class EarthquakeRun;
+class StepCorrector;
 struct CoupledModes; // fe2d/fluid/coupled_modes.hpp
 struct PassSteps;
 
@@ -47,7 +48,8 @@ struct RunOptions {
     std::filesystem::path rock_cache; ///< folder of reduced rock (RockStore); empty: none
     int largest_halvings = 5;         ///< of sub-steps that are chosen
     double smallest_slip = 1e-6;      ///< errors below time.slip_tolerance of this do not matter [m]
-    bool corrects_steps = false;      ///< CorrectedRun takes the place of halving, where steps are chosen
+    /// corrected_run() of fe2d/reduction; empty: steps that are chosen are halved
+    std::function<std::unique_ptr<const StepCorrector>(const EarthquakeRun&, const Scene&, const RunOptions&)> corrector;
     std::optional<double> rest_time;  ///< the run-out ends when the dam has not slid for this long; none: window() [s]
     ContactOptions contact;
     std::optional<RunState> start; ///< as RunResult::state of a run before; none: a dam that no earthquake has shaken
@@ -86,7 +88,7 @@ struct LiftResult {
     double cut_factor = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// What runs on few modes of the dam, with smaller steps than the run's, add to its slip (CorrectedRun).
+/// What runs on few modes of the dam, with smaller steps than the run's, add to its slip (StepCorrector).
 struct StepCorrection {
     double slip = 0.0; ///< part of RunResult::slip [m]
     double dt = 0.0;   ///< the smallest of their steps [s]
@@ -145,6 +147,13 @@ struct Shaking {
     Contact contact;                      ///< strength of the base
 };
 
+/// What takes the place of halving where steps are chosen.
+class StepCorrector {
+public:
+    virtual ~StepCorrector() = default;
+    virtual std::vector<RunResult> run_all(std::span<const Shaking> shakings) const = 0; ///< as EarthquakeRun::run_all
+};
+
 /// A scene made ready: mesh, matrices, rock condensed, loads, damping. Friction and motion may differ from run to run.
 /// The operators of each step size are made by the first run that needs them and shared by all; runs can go on in
 /// parallel.
@@ -191,7 +200,7 @@ public:
                                    const std::optional<ChosenSteps>& steps = {}) const;
     std::vector<RunResult> run_all(const GroundMotion& motion, std::span<const Contact> contacts,
                                    const std::optional<ChosenSteps>& steps = {}) const;
-    /// The same without CorrectedRun: chosen steps are halved until the slip stays.
+    /// The same without a corrector: chosen steps are halved until the slip stays.
     std::vector<RunResult> run_halved(std::span<const Shaking> shakings) const { return run_in_step(shakings, {}); }
     /// How many runs gain by going in step in one run_all(), where they differ in the motion, too: 1 where the factor stays in
     /// the processor's cache.
@@ -209,7 +218,7 @@ public:
 
 private:
     struct BatchedRun;
-    const CorrectedRun* corrected() const;
+    const StepCorrector* corrector() const;
     std::vector<RunResult> run_in_step(std::span<const Shaking> shakings, const std::optional<ChosenSteps>& steps) const;
     /// Rest before the earthquake in the terms of what moves.
     struct Rest {
@@ -271,8 +280,8 @@ private:
     std::vector<Note> why_not_; ///< of what is not usable
     double seconds_ = 0.0;
     std::optional<double> first_frequency_; ///< of dam and acoustic water, where the damping asked for it [rad/s]
-    mutable std::once_flag corrected_made_;
-    mutable std::unique_ptr<const CorrectedRun> corrected_; ///< made by the first run that chooses its steps
+    mutable std::once_flag corrector_made_;
+    mutable std::unique_ptr<const StepCorrector> corrector_; ///< made by the first run that chooses its steps
     mutable std::once_flag window_found_;
     mutable double window_ = 0.0; ///< see window() [s]
 };

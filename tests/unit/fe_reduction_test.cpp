@@ -1,5 +1,6 @@
 // The reduced run against the full one.
 #include "core/file.hpp"
+#include "fe2d/reduction/corrected_run.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "fe2d/run/step_error.hpp"
 #include "scene/rock_mass.hpp"
@@ -280,7 +281,7 @@ TEST(CorrectedRun, IsWithinItsErrorOfMuchSmallerSteps)
         for (const double pga : {1.5, 2.5}) {
             const Scene scene = small_dam(friction);
             RunOptions options = options_of(scene);
-            options.corrects_steps = true;
+            options.corrector = corrected_run;
             const EarthquakeRun full(scene, options);
             const GroundMotion motion = sines(pga, 8.0);
             const RunResult run = full.run(motion);
@@ -306,7 +307,7 @@ TEST(CorrectedRun, HalvesWhatItCannotCorrect)
     scene.time.slip_tolerance = 1e-5;
     RunOptions options = options_of(scene);
     options.largest_halvings = 3;
-    options.corrects_steps = true;
+    options.corrector = corrected_run;
     const EarthquakeRun full(scene, options);
     const GroundMotion motion = sines(1.5, 4.0);
     const Shaking shaking{&motion, scene.contact};
@@ -322,7 +323,7 @@ TEST(CorrectedRun, HasTheSameBitsAloneAndBesideOthers)
 {
     const Scene scene = small_dam(0.65);
     RunOptions options = options_of(scene);
-    options.corrects_steps = true;
+    options.corrector = corrected_run;
     const EarthquakeRun full(scene, options);
     const GroundMotion weak = sines(1.5, 6.0), strong = sines(2.5, 6.0);
     Contact firm = scene.contact, loose = scene.contact;

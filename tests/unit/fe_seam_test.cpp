@@ -354,7 +354,7 @@ TEST(FeSeam, IsNotReduced)
     const Ready ready = ready_of(elastic_seam(1.0));
     const Watch nobody;
     const RunOptions options = ready.run_options(nobody);
-    EXPECT_FALSE(options.corrects_steps);
+    EXPECT_FALSE(options.corrector);
     const EarthquakeRun run(ready.scene, options);
     EXPECT_THROW(ReducedRun(run, ready.scene, options), InputError);
 }

@@ -62,7 +62,7 @@ ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& wa
                                     "the state of the same model", "write the state anew with  --state-out"});
     wake_lifts();
     if (const std::optional<Scene> exact = with_exact_contact(ready_.scene); exact && !reduced_) {
-        plain.corrects_steps = corrects_steps(*exact);
+        set_corrector(*exact, plain);
         exact_.emplace(*exact, plain);
     }
     rigid_ = ready.rigid_model();

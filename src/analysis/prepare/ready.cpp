@@ -191,7 +191,7 @@ fe2d::RunOptions Ready::run_options(const Watch& watch) const
         options.damping = damping_by_record(scene, model_options(), motion(records().front()));
     if (rock_radiates(scene)) options.wave_frequency = wave_frequency();
     options.rock_cache = cache_folder();
-    options.corrects_steps = corrects_steps(scene);
+    set_corrector(scene, options);
     options.stop = watch.stop();
     options.progress = [&watch](const fe2d::RunProgress&) {
         return watch.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;

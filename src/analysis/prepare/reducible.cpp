@@ -3,6 +3,7 @@
 #include "core/input_error.hpp"
 #include "fe2d/element/elastic.hpp"
 #include "fe2d/model/model.hpp"
+#include "fe2d/reduction/corrected_run.hpp"
 #include "fe2d/seepage/seepage.hpp"
 #include "fe2d/seepage/seepage_mesh.hpp"
 #include "records/measure/measures.hpp"
@@ -75,10 +76,11 @@ void check_reducible(const Scene& scene)
     if (const auto why_not = why_not_reducible(scene)) throw UsageError(*why_not);
 }
 
-bool corrects_steps(const Scene& scene)
+void set_corrector(const Scene& scene, fe2d::RunOptions& options)
 {
-    return scene.time.stepping == Stepping::automatic && !scene.time.substeps && !with_exact_contact(scene) &&
-           scene.tied_lifts.empty() && scene.dam.crack != BodyCrack::traced && !why_not_reducible(scene);
+    const bool corrects = scene.time.stepping == Stepping::automatic && !scene.time.substeps && !with_exact_contact(scene) &&
+                          scene.tied_lifts.empty() && scene.dam.crack != BodyCrack::traced && !why_not_reducible(scene);
+    options.corrector = corrects ? fe2d::corrected_run : decltype(options.corrector)();
 }
 
 namespace {

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+namespace damslip::fe2d { struct RunOptions; }
+
 namespace damslip {
 
 /// What of the scene a reduced run cannot do; nothing where it can.
@@ -18,9 +20,9 @@ std::optional<Diagnostic> why_not_reducible(const Scene& scene);
 /// @throws UsageError with that
 void check_reducible(const Scene& scene);
 
-/// Do its runs correct their steps (fe2d::CorrectedRun)? They do where steps are chosen, contact is exact, and the dam can be
-/// reduced and stays in one piece.
-bool corrects_steps(const Scene& scene);
+/// Has its runs correct their steps (fe2d::CorrectedRun) where steps are chosen, contact is exact, and the dam can be reduced and
+/// stays in one piece; halve them elsewhere.
+void set_corrector(const Scene& scene, fe2d::RunOptions& options);
 
 /// What rock with mass asks of its box and mesh: waves that come back from fixed edges, and elements that are too long
 /// for the waves of this motion. Nothing for massless rock.
