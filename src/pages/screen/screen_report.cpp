@@ -454,7 +454,8 @@ namespace {
 void add_points(const ScreenReportInput& in, Answer& answer)
 {
     const Screening& s = in.screening;
-    if (s.elastic && !s.elastic->runs.empty()) {
+    const bool elastic = s.elastic && !s.elastic->runs.empty();
+    if (elastic) {
         add_points(in.scene, s.elastic->runs, answer);
     } else if (const SlipRow* worst = largest(s)) {
         const double yield = s.bases.front().model.downstream.law.constant;
@@ -462,7 +463,8 @@ void add_points(const ScreenReportInput& in, Answer& answer)
                                             worst->polarity, worst->pga / standard_gravity, yield / standard_gravity));
     }
     double friction = 0.0;
-    for (const NeededRow& row : s.needed) friction = std::max(friction, row.friction.value_or(0.0));
+    if (!elastic) // what a rigid block needs is no bound for the elastic dam
+        for (const NeededRow& row : s.needed) friction = std::max(friction, row.friction.value_or(0.0));
     if (friction > 0.0)
         answer.point("look at", fmt::format("friction: {:.3g} keeps the rigid block's slip within {:.4g} mm, given {:.3g}",
                                             friction, in.scene.criteria.allowable_slip.value_or(0.0) / mm,
