@@ -48,10 +48,12 @@ void ReducedContact::right_hand_side(const StepConstants& c, const GroundAcceler
                  drag_v = w * ground.drag_v - alpha * state_.ground.drag_v;
     const double per_rate = 1.0 / (w * c.a1);
     rates_ = (per_rate * cv) * s.q_v + (per_rate * ca) * s.q_a;
-    inertia_ = c.a2 * s.q_v + c.a3 * s.q_a - c.a0 * rates_;
+    inertia_ = (c.a2 - c.a0 * per_rate * cv) * s.q_v + (c.a3 - c.a0 * per_rate * ca) * s.q_a;
     strain_ = -s.q - w * rates_;
-    load_ = h * system_.modes.ground_x - v * system_.modes.ground_y + drag_h * system_.modes.dam_x -
-            drag_v * system_.modes.dam_y + inertia_ + system_.modes.omega2.cwiseProduct(strain_);
+    load_ = inertia_ + system_.modes.omega2.cwiseProduct(strain_);
+    const auto of_dam = [&](const VectorXd& vector) { return vector.head(system_.dam_modes); }; // the others have zeros
+    load_.head(system_.dam_modes) += h * of_dam(system_.modes.ground_x) - v * of_dam(system_.modes.ground_y) +
+                                     drag_h * of_dam(system_.modes.dam_x) - drag_v * of_dam(system_.modes.dam_y);
     if (const ReducedWater* water = system_.water.get()) {
         const auto of_water = [&](auto& vector) { return vector.segment(system_.water_begin, water->count()); };
         const auto weighted = [&](double GroundAcceleration::*part) {
