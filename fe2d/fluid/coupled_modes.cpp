@@ -22,37 +22,26 @@ constexpr Index most_modes = 400;
 using ConstMap = Eigen::Map<const VectorXd>;
 using Map = Eigen::Map<VectorXd>;
 
-/// K and L factorised.
-struct Factors {
-    LinearSolver structure, water;
-
-    SolverReport factorise(const CoupledPencil& p)
-    {
-        if (const SolverReport& r = structure.factorise(p.stiffness); !r.ok()) return r;
-        if (const SolverReport& r = water.factorise(p.water_stiffness); !r.ok()) return r;
-        return structure.report();
-    }
-};
-
 /// z -> B z.
 class Inertia {
 public:
     using Scalar = double;
-    Inertia(const CoupledPencil& pencil, const Factors& factors) : p_(pencil), f_(factors) {}
+    /// @param water  L factorised
+    Inertia(const CoupledPencil& pencil, const LinearSolver& water) : p_(pencil), water_(water) {}
     Index rows() const { return p_.stiffness.rows() + p_.water_mass.rows(); }
     Index cols() const { return rows(); }
     void perform_op(const double* in, double* out) const
     {
         const Index n = p_.stiffness.rows(), m = p_.water_mass.rows();
         const ConstMap u(in, n), q(in + n, m);
-        const VectorXd potential = f_.water.solve(VectorXd(p_.coupling.transpose() * u + p_.water_mass * q));
+        const VectorXd potential = water_.solve(VectorXd(p_.coupling.transpose() * u + p_.water_mass * q));
         Map(out, n) = p_.mass * u + p_.coupling * potential;
         Map(out + n, m) = p_.water_mass * potential;
     }
 
 private:
     const CoupledPencil& p_;
-    const Factors& f_;
+    const LinearSolver& water_;
 };
 
 using Cholesky = Spectra::SparseCholesky<double>;
@@ -144,18 +133,19 @@ void fill(CoupledModes& modes, const CoupledPencil& p, const Pairs& pairs, Index
 CoupledModes coupled_modes(const CoupledPencil& pencil, int count)
 {
     CoupledModes modes;
-    Factors factors;
-    modes.solver = factors.factorise(pencil);
+    LinearSolver water;
+    modes.solver = water.factorise(pencil.water_stiffness);
     if (!modes.solver.ok()) {
         modes.status = CoupledModesStatus::solver_failed;
         return modes;
     }
     modes.total_mass = pencil.structure_mass;
-    modes.total_mass.x() += pencil.flux_x.dot(factors.water.solve(pencil.flux_x));
-    modes.total_mass.y() += pencil.flux_y.dot(factors.water.solve(pencil.flux_y));
-    Inertia inertia(pencil, factors);
+    modes.total_mass.x() += pencil.flux_x.dot(water.solve(pencil.flux_x));
+    modes.total_mass.y() += pencil.flux_y.dot(water.solve(pencil.flux_y));
+    Inertia inertia(pencil, water);
     const Pairs pairs = largest_pairs(inertia, stiffness_of(pencil), count);
     const Index found = std::min<Index>(count, pairs.values.size());
+    if (!pairs.converged && found == 0) modes.solver = LinearSolver().factorise(pencil.stiffness); // it may say why
     if (!pairs.converged || found < std::min<Index>(count, inertia.rows()))
         modes.status = CoupledModesStatus::not_converged;
     fill(modes, pencil, pairs, found);

@@ -23,7 +23,7 @@ enum class CoupledModesStatus { ok, solver_failed, not_converged };
 /// Lowest first. Normalised to a modal mass of 1, φ_uᵀMφ_u + φ_pᵀLφ_p/ω⁴ = 1.
 struct CoupledModes {
     CoupledModesStatus status = CoupledModesStatus::ok;
-    SolverReport solver;             ///< of the factorisation that failed, else of K
+    SolverReport solver;             ///< of the factorisation that failed, else of L
     Eigen::VectorXd frequency;       ///< [Hz]
     Eigen::MatrixXd displacement;    ///< φ_u by columns
     Eigen::MatrixXd pressure;        ///< φ_p by columns

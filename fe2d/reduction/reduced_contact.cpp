@@ -21,7 +21,7 @@ ReducedContact::ReducedContact(const ReducedModel& model, const ContactMemory& r
       no_force_(VectorXd::Zero(2 * plane_.pairs()))
 {
     state_.q = state_.q_v = state_.q_a = VectorXd::Zero(system_.modes.count());
-    state_.p = state_.p_v = state_.p_a = no_force_;
+    state_.p = state_.p_v = state_.p_a = state_.gap_v = state_.gap_a = no_force_;
     state_.contact = rest;
 }
 
@@ -36,45 +36,45 @@ ReducedContact::Step& ReducedContact::step_of(double dt)
         .first->second;
 }
 
-/// b, π and the known contact-like forces; DynamicContact::right_hand_side in modal amplitudes since rest.
+/// b without the force of the damping, the rates that make it (ReducedOperator), π and the known contact-like forces;
+/// DynamicContact::right_hand_side in modal amplitudes since rest.
 void ReducedContact::right_hand_side(const StepConstants& c, const GroundAcceleration& ground)
 {
     const double alpha = c.scheme.alpha, w = 1.0 + alpha, cv = alpha + w * c.a4, ca = w * c.a5;
-    const double a_m = system_.damping.constants.mass, b_k = system_.damping.constants.stiffness;
+    const double b_k = system_.damping.constants.stiffness;
     const double h = w * ground.h - alpha * state_.ground.h, v = w * ground.v - alpha * state_.ground.v;
     const ReducedState& s = state_;
     const double drag_h = w * ground.drag_h - alpha * state_.ground.drag_h,
                  drag_v = w * ground.drag_v - alpha * state_.ground.drag_v;
-    rates_ = cv * s.q_v + ca * s.q_a;
-    const Index dam = system_.water ? system_.water_begin : rates_.size(); // mass beyond is not the dam's
-    damped_.setZero(rates_.size());
-    damped_.head(dam).noalias() = system_.modes.dam_mass.topLeftCorner(dam, dam) * rates_.head(dam);
-    load_ = h * system_.modes.ground_x - v * system_.modes.ground_y + drag_h * system_.modes.dam_x -
-            drag_v * system_.modes.dam_y + c.a2 * s.q_v + c.a3 * s.q_a + a_m * damped_ +
-            system_.modes.omega2.cwiseProduct((b_k * cv) * s.q_v + (b_k * ca) * s.q_a - s.q);
+    const double per_rate = 1.0 / (w * c.a1);
+    rates_ = (per_rate * cv) * s.q_v + (per_rate * ca) * s.q_a;
+    inertia_ = (c.a2 - c.a0 * per_rate * cv) * s.q_v + (c.a3 - c.a0 * per_rate * ca) * s.q_a;
+    strain_ = -s.q - w * rates_;
+    load_ = inertia_ + system_.modes.omega2.cwiseProduct(strain_);
+    const auto of_dam = [&](const VectorXd& vector) { return vector.head(system_.dam_modes); }; // the others have zeros
+    load_.head(system_.dam_modes) += h * of_dam(system_.modes.ground_x) - v * of_dam(system_.modes.ground_y) +
+                                     drag_h * of_dam(system_.modes.dam_x) - drag_v * of_dam(system_.modes.dam_y);
     if (const ReducedWater* water = system_.water.get()) {
         const auto of_water = [&](auto& vector) { return vector.segment(system_.water_begin, water->count()); };
         const auto weighted = [&](double GroundAcceleration::*part) {
             return w * ground.*part - alpha * state_.ground.*part;
         };
         auto load = of_water(load_);
-        water_ = c.a2 * of_water(s.q_v) + c.a3 * of_water(s.q_a);
         load.setZero();
-        add_product(water->mass, water_, load);
-        water_ = -of_water(s.q);
-        add_product(water->stiffness, water_, load);
+        add_product(water->mass, of_water(inertia_), load);
+        add_product(water->stiffness, of_water(strain_), load);
         load += weighted(&GroundAcceleration::displacement_v) * water->displacement_y -
                 weighted(&GroundAcceleration::velocity_h) * water->velocity_x +
                 weighted(&GroundAcceleration::velocity_v) * water->velocity_y;
     }
-    system_.add_damping(rates_, load_);
     massless_ = (b_k * cv) * s.p_v + (b_k * ca) * s.p_a - s.p;
     known_ = alpha * s.contact.force + rest_force_;
     if (!system_.slips_damped()) return;
-    const double slip = cv * rate_ + ca * accel_;
-    const double mean = system_.mean_motion.dot(rates_);
+    const Index m = plane_.pairs();
+    const double slip = cv * system_.weights.dot(s.gap_v.tail(m)) + ca * system_.weights.dot(s.gap_a.tail(m));
+    const double mean = system_.mean_motion.dot(rates_) / per_rate;
     load_ -= (system_.slip_damping * slip) * system_.mean_motion;
-    known_.tail(system_.weights.size()) -= (system_.slip_damping * (slip - mean)) * system_.weights;
+    known_.tail(m) -= (system_.slip_damping * (slip - mean)) * system_.weights;
 }
 
 ContactReport ReducedContact::advance(double dt, const GroundAcceleration& ground, const ContactLaw& law)
@@ -98,23 +98,24 @@ ContactReport ReducedContact::advance(double dt, const GroundAcceleration& groun
     const ContactReport report = step.contact->solve(stuck_, law, memory.elastic, solution_);
     counts_.contact_seconds += before.seconds();
 
-    tangential_ = solution_.displacement.tail(m) + memory.elastic - elastic_;
-    const double slip = system_.weights.dot(tangential_);
+    gap_step_ = solution_.displacement;
+    gap_step_.head(m) -= memory.opening;
+    gap_step_.tail(m) += memory.elastic - elastic_;
+    const double slip = system_.weights.dot(gap_step_.tail(m));
     op.finish(massless_, known_, solution_.force, slip, work_, modal_step_, massless_step_);
 
-    const auto update = [&](const VectorXd& change, VectorXd& x, VectorXd& velocity, VectorXd& acceleration) {
-        x += change;
-        for (Index i = 0; i < x.size(); ++i) {
+    const auto update = [&](const VectorXd& change, VectorXd& velocity, VectorXd& acceleration) {
+        for (Index i = 0; i < change.size(); ++i) {
             const double v = velocity[i], a = acceleration[i];
             velocity[i] = c.a1 * change[i] - c.a4 * v - c.a5 * a;
             acceleration[i] = c.a0 * change[i] - c.a2 * v - c.a3 * a;
         }
     };
-    update(modal_step_, state_.q, state_.q_v, state_.q_a);
-    update(massless_step_, state_.p, state_.p_v, state_.p_a);
-    const double rate = c.a1 * slip - c.a4 * rate_ - c.a5 * accel_;
-    accel_ = c.a0 * slip - c.a2 * rate_ - c.a3 * accel_;
-    rate_ = rate;
+    state_.q += modal_step_;
+    state_.p += massless_step_;
+    update(modal_step_, state_.q_v, state_.q_a);
+    update(massless_step_, state_.p_v, state_.p_a);
+    update(gap_step_, state_.gap_v, state_.gap_a);
     memory.force = solution_.force;
     memory.states = solution_.states;
     memory.opening = solution_.displacement.head(m);
@@ -130,21 +131,11 @@ ContactReport ReducedContact::advance(double dt, const GroundAcceleration& groun
 }
 
 /// Changes of modes and massless body by the forces of jumps_, into modal_step_ and massless_step_.
-/// @returns the change of the mean tangential gap
-double ReducedContact::change_by(const Step& step)
+void ReducedContact::change_by(const Step& step)
 {
     const double slip = system_.weights.dot(jumps_.displacement.tail(plane_.pairs()));
     no_load_work_.free.setZero(system_.modes.count());
     step.shared->finish(no_force_, no_force_, jumps_.force, slip, no_load_work_, modal_step_, massless_step_);
-    return slip;
-}
-
-/// What amplitudes of modes and massless body, or their rates, are on the plane, into gaps_.
-void ReducedContact::set_gaps(const VectorXd& modes, const VectorXd& massless)
-{
-    set_product(system_.modes.on_plane, modes, gaps_);
-    set_product(system_.flexibility, massless, gaps_of_massless_);
-    gaps_ += gaps_of_massless_;
 }
 
 /// DynamicContact::land() and settle() in modal amplitudes.
@@ -154,19 +145,18 @@ void ReducedContact::land(Step& step, const ContactLaw& law)
     if (!step.contact->lands(states_before_, states)) return;
     const bool shuts = step.contact->shuts(states_before_, states);
     jumps_.states = states;
-    set_gaps(state_.q_v, state_.p_v);
-    if (!(shuts ? step.contact->land(law, gaps_, jumps_) : step.contact->hold(law, gaps_, jumps_))) return;
+    if (!(shuts ? step.contact->land(law, state_.gap_v, jumps_) : step.contact->hold(law, state_.gap_v, jumps_))) return;
     states = jumps_.states;
     ++counts_.landings;
-    rate_ += change_by(step);
+    change_by(step);
     state_.q_v += modal_step_;
     state_.p_v += massless_step_;
-    if (!shuts) return;
-    set_gaps(state_.q_a, state_.p_a);
-    if (!step.contact->hold(law, gaps_, jumps_)) return;
-    accel_ += change_by(step);
+    state_.gap_v += jumps_.displacement;
+    if (!shuts || !step.contact->hold(law, state_.gap_a, jumps_)) return;
+    change_by(step);
     state_.q_a += modal_step_;
     state_.p_a += massless_step_;
+    state_.gap_a += jumps_.displacement;
     state_.contact.force += jumps_.force / step.shared->constants().a0;
 }
 

@@ -14,6 +14,7 @@ struct ReducedState {
     double time = 0.0;           ///< [s]
     Eigen::VectorXd q, q_v, q_a; ///< modal amplitudes since the static state
     Eigen::VectorXd p, p_v, p_a; ///< elastic force of the massless body since then, and its rates [N/m]
+    Eigen::VectorXd gap_v, gap_a; ///< rates of the gaps, elastic part included, 2m [m/s, m/s²]
     ContactMemory contact;
     GroundAcceleration ground;
 };
@@ -43,9 +44,8 @@ private:
         std::unique_ptr<JointSolver> contact;
     };
     Step& step_of(double dt);
-    double change_by(const Step& step);
+    void change_by(const Step& step);
     void land(Step& step, const ContactLaw& law);
-    void set_gaps(const Eigen::VectorXd& modes, const Eigen::VectorXd& massless);
     void right_hand_side(const StepConstants& constants, const GroundAcceleration& ground);
 
     const ReducedModel& model_;
@@ -57,14 +57,11 @@ private:
     Eigen::VectorXd rest_force_, rest_slip_;
     double normal_force_ = 0.0; ///< static N', the scale of residuals [N/m]
     ReducedState state_;
-    double rate_ = 0.0, accel_ = 0.0; ///< of the area-weighted tangential gap [m/s, m/s²]
     double friction_ = 0.0;
     DynamicCounts counts_;
 
     // Work space.
-    Eigen::VectorXd load_, massless_, known_, stuck_, modal_step_, massless_step_, rates_, damped_, tangential_,
-        elastic_, water_;
-    Eigen::VectorXd gaps_, gaps_of_massless_;
+    Eigen::VectorXd load_, massless_, known_, stuck_, modal_step_, massless_step_, gap_step_, rates_, inertia_, strain_, elastic_;
     Eigen::VectorXd no_force_;                   ///< zeros
     Eigen::VectorXd force_before_, slip_before_; ///< of the step
     ContactStates states_before_;

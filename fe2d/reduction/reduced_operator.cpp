@@ -40,7 +40,6 @@ void ReducedSystem::add_water()
     of_face = MatrixXd::Zero(water_begin, water->count());
     of_face.topLeftCorner(dam_modes, shapes) = -modes.face * pressures;
     of_face.bottomLeftCorner(attached.rows(), shapes) = -attached;
-    on_face = of_face.transpose();
     modes.lengthen(water->count());
 }
 
@@ -66,20 +65,6 @@ void ReducedSystem::add_rock(const ReducedRock& rock, double highest)
         radiation.conservativeResizeLike(MatrixXd::Zero(all, all));
     }
     flexibility += residual;
-}
-
-void ReducedSystem::add_damping(const VectorXd& velocity, VectorXd& force) const
-{
-    if (rock_modes() > 0 && !rock_apart()) add_product(radiation, velocity.tail(radiation.rows()), force.tail(radiation.rows()));
-    if (!water) return;
-    const auto of_water = velocity.segment(water_begin, water->count());
-    auto on_water = force.segment(water_begin, water->count());
-    add_product(water->damping, of_water, on_water);
-    add_product(on_face, velocity.head(water_begin), on_water);
-    add_product(of_face, of_water, force.head(water_begin));
-    if (of_floor.size() == 0) return;
-    on_water.noalias() += of_floor.transpose() * velocity.tail(of_floor.rows());
-    add_product(of_floor, of_water, force.tail(of_floor.rows()));
 }
 
 PlaneShapes::PlaneShapes(const ReducedSystem& system)
@@ -108,6 +93,24 @@ PlaneShapes::PlaneShapes(const ReducedSystem& system)
     to_rock = TransposedProduct(rock);
 }
 
+namespace {
+
+/// Of a symmetric matrix. @param definite  positive definite, else quasi-definite
+MatrixXd inverse_of(const MatrixXd& matrix, bool definite)
+{
+    MatrixXd inverse;
+    if (definite) {
+        inverse = matrix.llt().solve(MatrixXd::Identity(matrix.rows(), matrix.cols()));
+    } else {
+        const VectorXd scale = matrix.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
+        inverse = scale.asDiagonal() * matrix * scale.asDiagonal();
+        inverse = (scale.asDiagonal() * inverse.partialPivLu().inverse() * scale.asDiagonal()).eval();
+    }
+    return 0.5 * (inverse + inverse.transpose());
+}
+
+} // namespace
+
 ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system, const PlaneShapes& shapes,
                                  const StepConstants& constants)
     : system_(system), shapes_(shapes), constants_(constants)
@@ -121,8 +124,6 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
     d.diagonal().array() += constants.a0 + stretch * system.modes.omega2.array();
     const Index rock = system.rock_modes();
     if (rock > 0) d.bottomRightCorner(rock, rock) += w * constants.a1 * system.radiation;
-    if (system.rock_apart()) split_ = d.rows() - rock;
-    MatrixXd inverse; // d⁻¹
     if (system.water) {
         const Index first = system.water_begin, water = system.water->count(), floor = system.of_floor.rows();
         d.block(first, first, water, water) = constants.a0 * system.water->mass +
@@ -130,30 +131,27 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
         d.block(0, first, first, water) = (w * constants.a1) * system.of_face;
         if (floor > 0) d.block(d.rows() - floor, first, floor, water) = (w * constants.a1) * system.of_floor;
         d.middleRows(first, water) = d.middleCols(first, water).transpose().eval();
-        const VectorXd scale = d.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse(); // it is quasi-definite
-        d = (scale.asDiagonal() * d * scale.asDiagonal()).eval();
-        inverse = scale.asDiagonal() * d.partialPivLu().inverse() * scale.asDiagonal();
-    } else {
-        inverse = d.llt().solve(MatrixXd::Identity(d.rows(), d.cols()));
     }
-    inverse = (0.5 * (inverse + inverse.transpose())).eval();
-    inverse_ = split_ == 0 ? inverse : MatrixXd(inverse.topLeftCorner(split_, split_));
-    if (split_ > 0) inverse_of_rock_ = inverse.bottomRightCorner(rock, rock);
+    apart_ = system.rock_apart() ? rock : 0;
+    const Index first_block = d.rows() - apart_;
+    inverse_ = inverse_of(d.topLeftCorner(first_block, first_block), !system.water);
+    const MatrixXd moving = on_plane.leftCols(first_block) * inverse_; // Φ d⁻¹
+    to_steps_ = TransposedProduct(moving);
     MatrixXd flexibility = massless_factor_ * system.flexibility;
-    const MatrixXd moving = on_plane * inverse; // Φ d⁻¹
-    to_steps_ = split_ == 0 ? TransposedProduct(moving) : TransposedProduct(moving.leftCols(split_));
-    if (split_ > 0) {
+    flexibility.noalias() += moving * on_plane.leftCols(first_block).transpose();
+    if (apart_ > 0) {
+        inverse_of_rock_ = inverse_of(d.bottomRightCorner(apart_, apart_), true);
         to_rock_steps_ = TransposedProduct(shapes.rock * inverse_of_rock_);
-        rock_diagonal_ = constants.a0 + stretch * system.modes.omega2.tail(rock).array();
+        flexibility.noalias() += on_plane.rightCols(apart_) * inverse_of_rock_ * on_plane.rightCols(apart_).transpose();
     }
-    flexibility.noalias() += moving * on_plane.transpose();
     MatrixXd stiffness = flexibility.llt().solve(MatrixXd::Identity(2 * m, 2 * m)); // W⁻¹
     stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
     stiff_modes_ = stiffness * on_plane.leftCols(shapes.dam);
     if (rock > 0) stiff_ports_ = stiffness * shapes.ports;
     if (system.slips_damped()) {
         k_ = w * constants.a1 * system.slip_damping;
-        softened_motion_ = inverse * system.mean_motion;
+        softened_motion_.setZero(d.rows());
+        softened_motion_.head(first_block) = inverse_ * system.mean_motion.head(first_block); // rock apart has no part in it
         z_ = on_plane * softened_motion_;
         zeta_ = softened_motion_.dot(system.mean_motion);
         // EᵀW⁻¹E, E = I - k z ωᵀ: three rank-one terms
@@ -171,14 +169,10 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
 
 void ReducedOperator::soften(const VectorXd& load, VectorXd& step) const
 {
-    if (split_ == 0) {
-        set_product(inverse_, load, step);
-        return;
-    }
-    const Index rock = load.size() - split_;
+    const Index first_block = inverse_.rows();
     step.setZero(load.size());
-    add_product(inverse_, load.head(split_), step.head(split_));
-    add_product(inverse_of_rock_, load.tail(rock), step.tail(rock));
+    add_product(inverse_, load.head(first_block), step.head(first_block));
+    if (apart_ > 0) add_product(inverse_of_rock_, load.tail(apart_), step.tail(apart_));
 }
 
 namespace {
@@ -207,12 +201,8 @@ void ReducedOperator::stuck_force(const VectorXd& load, const VectorXd& rates, c
         add_through_ports(shapes_.to_ports, shapes_.ports.cols(), shapes_.to_rock, massless, work.ports, work.rock,
                           work.modal.tail(rock));
     work.modal = load - work.modal;
-    if (split_ > 0) {
-        work.rates = rates.tail(rock) / (w * constants_.a1);
-        work.modal.tail(rock) -= rock_diagonal_.cwiseProduct(work.rates);
-    }
     soften(work.modal, work.free);
-    if (split_ > 0) work.free.tail(rock) += work.rates;
+    work.free += rates;
     stuck = massless;
     add_product(stiff_modes_, work.free.head(shapes_.dam), stuck);
     if (rock > 0) {
@@ -221,7 +211,7 @@ void ReducedOperator::stuck_force(const VectorXd& load, const VectorXd& rates, c
         add_product(stiff_ports_, work.ports, stuck);
     }
     if (system_.slips_damped()) {
-        work.mean = softened_motion_.dot(load);
+        work.mean = softened_motion_.dot(load) + system_.mean_motion.dot(rates);
         stuck.tail(system_.weights.size()) += (k_ * (work.mean - z_.dot(stuck))) * system_.weights;
     }
     stuck = (known - stuck) / w;
@@ -242,9 +232,9 @@ void ReducedOperator::finish(const VectorXd& massless, const VectorXd& known, co
     tilde += massless;
     modal_step = work.free;
     to_steps_.add(tilde, modal_step);
-    if (split_ > 0)
+    if (apart_ > 0)
         add_through_ports(shapes_.to_ports, shapes_.ports.cols(), to_rock_steps_, tilde, work.ports, work.rock,
-                          modal_step.tail(modal_step.size() - split_));
+                          modal_step.tail(apart_));
     if (system_.slips_damped()) modal_step += (k_ * slip) * softened_motion_;
     massless_step = massless_factor_ * tilde;
 }

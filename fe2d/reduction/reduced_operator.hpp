@@ -30,7 +30,6 @@ struct ReducedSystem {
     Eigen::Index water_begin = 0;              ///< its first shape among `modes`
     Eigen::MatrixXd of_face,
         of_floor; ///< damping between the dam's modes, those of the rock, and the water's shapes; empty: none
-    Eigen::MatrixXd on_face; ///< of_faceᵀ
     Eigen::MatrixXd flexibility; ///< F_s = rock K_c⁻¹ or F_res + residual of the dam, in series, 2m x 2m [m²/N]
     RunDamping damping;
     double slip_damping = 0.0;   ///< k' of SlipDamping [N s/m per m]; 0: none
@@ -45,8 +44,6 @@ struct ReducedSystem {
     Eigen::Index rock_modes() const { return radiation.rows(); }
     /// Does the rock radiate, and meet dam and water on the plane alone? Else the floor of acoustic water couples it, too.
     bool rock_apart() const { return rock_modes() > 0 && of_floor.size() == 0; }
-    /// force += radiation of rock that is not apart, the water's own damping and its coupling by `velocity`.
-    void add_damping(const Eigen::VectorXd& velocity, Eigen::VectorXd& force) const;
     bool slips_damped() const { return slip_damping != 0.0; }
 
 private:
@@ -81,8 +78,8 @@ struct PlaneShapes {
 /// and Δq = d⁻¹ (b - Φᵀπ) + (Φ d⁻¹)ᵀ(λ̃ + π) + ... need products with Φ, W⁻¹Φ and Φ d⁻¹ only: 2m x n, nothing 2m x 2m but the
 /// contact problem itself. F_s is never inverted.
 ///
-/// The dashpots of rock_apart() add the force Ĉ r by the rates r at the start of the step. It needs no product with Ĉ, and b does
-/// not hold it: w a1 Ĉ = d - δ, δ = a0 + w (1 + a1 b_K) K̂, so  d⁻¹ Ĉ r = (r - d⁻¹ δ r)/(w a1).
+/// Damping of every kind, C, adds the force C r by the rates r at the start of the step. It needs no product with C, and b does
+/// not hold it: d = a0 M + w a1 C + w K, so  d⁻¹ C r = ρ - d⁻¹ (a0 M + w K) ρ  with ρ = r/(w a1).
 ///
 /// Nothing in it changes: runs and threads share it.
 class ReducedOperator {
@@ -90,7 +87,6 @@ public:
     /// What a run lends to the functions below; kept from step to step, it is not allocated again.
     struct Work {
         Eigen::VectorXd modal, plane, ports, rock;
-        Eigen::VectorXd rates; ///< r over w a1
         Eigen::VectorXd free;  ///< d⁻¹ (b - Φᵀπ)
         double mean = 0.0;    ///< μᵀd⁻¹ b [m]
     };
@@ -101,7 +97,7 @@ public:
     const std::shared_ptr<const Eigen::MatrixXd>& stiffness() const { return stiffness_; } ///< V of the contact problem
 
     /// λ⁰ for a gap that stays as it is.
-    /// @param load  b [..], modal @param rates  of all modes, r among them @param massless  π [N/m]
+    /// @param load  b less (a0 M + w K) ρ [..], modal @param rates  ρ @param massless  π [N/m]
     /// @param known  α λ₀ + λ_rest - (slip damping) [N/m]
     void stuck_force(const Eigen::VectorXd& load, const Eigen::VectorXd& rates, const Eigen::VectorXd& massless,
                      const Eigen::VectorXd& known, Work& work, Eigen::VectorXd& stuck) const;
@@ -116,14 +112,13 @@ private:
     const ReducedSystem& system_;
     const PlaneShapes& shapes_;
     StepConstants constants_;
-    Eigen::MatrixXd inverse_;    ///< d⁻¹; of two blocks the first
-    Eigen::Index split_ = 0;     ///< of two blocks, dam with water and rock, where the second begins; 0: there is one
-    Eigen::MatrixXd inverse_of_rock_;
-    TransposedProduct to_steps_;      ///< (Φ d⁻¹)ᵀ; of two blocks the first
+    Eigen::Index apart_ = 0;          ///< modes of rock_apart(): a block of d of its own, the second
+    Eigen::MatrixXd inverse_;         ///< d⁻¹ of the first block
+    Eigen::MatrixXd inverse_of_rock_; ///< and of the second
+    TransposedProduct to_steps_;      ///< (Φ d⁻¹)ᵀ of the first
     TransposedProduct to_rock_steps_; ///< (P d⁻¹)ᵀ of the second
     Eigen::MatrixXd stiff_modes_;     ///< W⁻¹Φ of the dam
     Eigen::MatrixXd stiff_ports_;     ///< W⁻¹U
-    Eigen::VectorXd rock_diagonal_;   ///< δ
     double k_ = 0.0, zeta_ = 0.0, massless_factor_ = 1.0;
     Eigen::VectorXd softened_motion_; ///< d⁻¹ μ
     Eigen::VectorXd z_;               ///< Φ d⁻¹ μ

@@ -1,6 +1,7 @@
 #include "fe2d/run/contact_structure.hpp"
 
 #include "fe2d/solver/dense_product.hpp"
+#include "fe2d/time/structure_system.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -457,9 +458,9 @@ constexpr int largest_space = 60;         ///< vectors; a few frequencies take t
 constexpr double largest_error = 1e-13;   ///< of 1/ω², relative
 constexpr double least_new_length = 1e-14; ///< of a new vector's length to the old one's; below, the space is complete
 
-bool fits(const ContactStructure& structure)
+bool is_plain(const ContactStructure& structure)
 {
-    return structure.regular() && structure.planes().count() == 1 && !structure.water() && !structure.rock_moves() &&
+    return structure.regular() && structure.planes().count() == 1 && !structure.rock_moves() &&
            (!structure.has_rock() || structure.matching());
 }
 
@@ -529,7 +530,7 @@ std::optional<VectorXd> converged(const VectorXd& diagonal, const VectorXd& off,
 
 std::optional<VectorXd> tied_frequencies(const ContactStructure& structure, int count)
 {
-    if (!fits(structure) || count < 1) return std::nullopt;
+    if (!is_plain(structure) || structure.water() || count < 1) return std::nullopt;
     const TiedStiffness stiffness(structure);
     if (!stiffness.regular()) return std::nullopt;
     const SparseMatrix& mass = structure.mass();
@@ -554,6 +555,33 @@ std::optional<VectorXd> tied_frequencies(const ContactStructure& structure, int 
             return found->cwiseSqrt().cwiseInverse();
     }
     return std::nullopt;
+}
+
+std::optional<CoupledPencil> tied_pencil(const ContactStructure& structure, const FluidModel& water)
+{
+    if (!is_plain(structure) || !structure.has_rock()) return std::nullopt;
+    const Model& model = structure.model();
+    const Index dam = 2 * model.mesh.dam_node_count; // its unknowns are the first
+    CoupledPencil pencil = coupled_pencil(model, water);
+    const auto& gaps = structure.planes().gaps();
+    const MatrixXd rock = gaps.transpose() * (structure.rock_stiffness() * gaps).eval();
+    const auto unknown = [&](Index k) { // of the interface's k-th
+        const NodeOrder& order = structure.order();
+        return 2 * order.old_node[static_cast<std::size_t>(order.inner + k / 2)] + k % 2;
+    };
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Index i = 0; i < rock.rows(); ++i)
+        for (Index j = 0; j < rock.cols(); ++j)
+            entries.emplace_back(unknown(i), unknown(j), 0.5 * (rock(i, j) + rock(j, i)));
+    SparseMatrix on_base(dam, dam);
+    on_base.setFromTriplets(entries.begin(), entries.end());
+    pencil.stiffness = SparseMatrix(pencil.stiffness.topLeftCorner(dam, dam)) + on_base;
+    pencil.mass = SparseMatrix(pencil.mass.topLeftCorner(dam, dam));
+    pencil.coupling = SparseMatrix(pencil.coupling.topRows(dam));
+    pencil.inertia_x = VectorXd(pencil.inertia_x.head(dam));
+    pencil.inertia_y = VectorXd(pencil.inertia_y.head(dam));
+    pencil.structure_mass = {pencil.inertia_x.sum(), pencil.inertia_y.sum()};
+    return pencil;
 }
 
 } // namespace damslip::fe2d

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fe2d/fluid/coupled_modes.hpp"
 #include "fe2d/model/model.hpp"
 #include "fe2d/run/contact_planes.hpp"
 #include "fe2d/run/interface_factor.hpp"
@@ -196,5 +197,11 @@ private:
 /// @param structure  of one plane, without acoustic water, each dam node opposite one of the rock's, the mass consistent
 /// @returns nothing where the structure is another or `count` have not converged: natural_modes() then tells more
 std::optional<Eigen::VectorXd> tied_frequencies(const ContactStructure& structure, int count);
+
+/// coupled_pencil() of the same dam tied to its massless rock, with the condensed rock that is there already: dam and water are its only
+/// unknowns.
+/// @param structure  of one plane on rock, each dam node opposite one of the rock's
+/// @returns nothing where the structure is another
+std::optional<CoupledPencil> tied_pencil(const ContactStructure& structure, const FluidModel& water);
 
 } // namespace damslip::fe2d

@@ -209,7 +209,8 @@ VectorXd EarthquakeRun::bonded_frequencies(int count) const
 /// Of the tied dam and its acoustic water, so that `leading` are the dam's.
 CoupledModes EarthquakeRun::coupled_modes(int leading) const
 {
-    return coupled_modes_up_to(coupled_pencil(tied_model(), water_->water), 0.0, leading);
+    const std::optional<CoupledPencil> condensed = tied_pencil(*structure_, water_->water);
+    return coupled_modes_up_to(condensed ? *condensed : coupled_pencil(tied_model(), water_->water), 0.0, leading);
 }
 
 void EarthquakeRun::find_damping()

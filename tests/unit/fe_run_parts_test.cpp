@@ -2,8 +2,10 @@
 #include "fe2d/modes/natural_modes.hpp"
 #include "fe2d/run/node_products.hpp"
 #include "fe2d/run/contact_structure.hpp"
+#include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/solver/dense_product.hpp"
 #include "fe2d/time/condensation.hpp"
+#include "fe2d/time/structure_system.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 
 #include <Eigen/Cholesky>
@@ -215,6 +217,29 @@ TEST(FeRunParts, frequencies_of_the_bonded_dam_are_those_of_a_model_built_tied)
         for (Index i = 0; i < 5; ++i)
             EXPECT_NEAR((*found)[i] / (2.0 * std::numbers::pi * natural.frequency[i]), 1.0, 1e-11) << i;
     }
+}
+
+// The same beside acoustic water: frequencies and effective masses of the pencil with condensed rock, 1e-12 each of 1/ω².
+TEST(FeRunParts, modes_of_bonded_dam_and_water_are_those_of_a_model_built_tied)
+{
+    Scene scene = fe2d::test::sliding_dam(0.77, 1.0, 9.0);
+    scene.mesh.size = 6.0;
+    scene.reservoir->model = ReservoirModel::acoustic;
+    const FluidModel water = build_fluid(scene);
+    const Model apart = build_model(scene, {.base = Base::separate}), tied = build_model(scene, {.base = Base::tied});
+    const auto pencil = tied_pencil(ContactStructure(apart), water);
+    ASSERT_TRUE(pencil);
+    EXPECT_LT(pencil->stiffness.rows(), tied.stiffness.rows());
+    const CoupledModes found = coupled_modes(*pencil, 6), expected = coupled_modes(coupled_pencil(tied, water), 6);
+    ASSERT_EQ(found.status, CoupledModesStatus::ok);
+    EXPECT_NEAR(found.total_mass.x() / expected.total_mass.x(), 1.0, 1e-12);
+    for (Index i = 0; i < 6; ++i) {
+        EXPECT_NEAR(found.frequency[i] / expected.frequency[i], 1.0, 1e-10) << i;
+        EXPECT_NEAR(found.effective_share(0, i), expected.effective_share(0, i), 1e-8) << i;
+    }
+    scene.foundation.reset();
+    const Model rigid = build_model(scene, {.base = Base::separate});
+    EXPECT_FALSE(tied_pencil(ContactStructure(rigid), water));
 }
 
 // Sums run in the same order on every level of vector instructions: not a bit differs. On a processor without AVX2 there

@@ -25,7 +25,7 @@ double first_frequency(const Scene& scene, const StopAsked& stop)
     stop_if_asked(stop, "the search for the dam's first frequency");
     const fe2d::Model model = fe2d::build_model(with_massless_rock(scene), options);
     stop_if_asked(stop, "the search for the dam's first frequency");
-    const fe2d::NaturalModes modes = fe2d::natural_modes(model, 1);
+    const fe2d::NaturalModes modes = fe2d::natural_modes(model, 1, {.factorisation = fe2d::Factorisation::supernodal});
     return modes.frequency.size() ? modes.frequency[0] : std::nan("");
 }
 
