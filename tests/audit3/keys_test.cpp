@@ -309,6 +309,7 @@ Methods out_of_sight(const std::string& key)
     if (key == "sliding.run_out_max_s") return methods::rigid; // it rests before the record ends; sabotage.run_out_off has it
     if (key.starts_with("seam") || key == "foundation.ground_m" || key == "foundation.k0")
         return methods::fe; // a plain `fe` slides on the base; fe_seam_test has `fe --plane`
+    if (key == "time.stepping") return methods::reduced; // its steps are all alike: it refuses "adaptive", of the others it takes both
     if (key == "regressions.period_s") return methods::flexible;            // the scene states flexible_block.period_s
     return 0;
 }
