@@ -164,9 +164,19 @@ TEST(AccuracyHierarchy, QuadraticElementsStandBesideLinearOnesOfTheSameStep)
         EXPECT_TRUE(model_level(results, model_level_id(linear))) << model_level_id(linear);
         linear.mesh *= 0.5;
         EXPECT_TRUE(model_level(results, model_level_id(linear))) << model_level_id(linear);
-        EXPECT_GT(*expected_seconds(r.model_level, results), 0.0);
+        EXPECT_GT(*expected_seconds(r.model_level, results, true), 0.0);
     }
     EXPECT_EQ(found, 2);
+}
+
+TEST(AccuracyHierarchy, CorrectedStepsCostLessThanHalvedOnes)
+{
+    const std::vector<ModelLevelResult> results = levels_run();
+    ModelLevel chosen = fe_model_level(ModelLevelWater::acoustic, 0);
+    chosen.step = StepChoice::by_tolerance;
+    EXPECT_LT(*expected_seconds(chosen, results, true), *expected_seconds(chosen, results, false));
+    ModelLevel quarters = fe_model_level(ModelLevelWater::acoustic, 2);
+    EXPECT_GT(*expected_seconds(chosen, results, true), *expected_seconds(quarters, results, true));
 }
 
 TEST(AccuracyHierarchy, HasOnlyModelLevelsThatDifferForTheScene)

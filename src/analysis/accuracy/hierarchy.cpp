@@ -246,7 +246,7 @@ std::vector<const ModelLevelResult*> mesh_column(const std::vector<ModelLevelRes
     return best;
 }
 
-std::optional<double> expected_seconds(const ModelLevel& model_level, const std::vector<ModelLevelResult>& so_far)
+std::optional<double> expected_seconds(const ModelLevel& model_level, const std::vector<ModelLevelResult>& so_far, bool corrects_steps)
 {
     if (model_level.family != ModelLevelFamily::finite_elements) return std::nullopt;
     const ModelLevelResult* nearest = nullptr;
@@ -261,8 +261,9 @@ std::optional<double> expected_seconds(const ModelLevel& model_level, const std:
     if (!nearest) return std::nullopt;
     const double more = model_level.element.empty() ? 1.0 : std::pow(quadratic_unknowns, 1.25);
     const double unknowns = more * std::pow(nearest->model_level.mesh / model_level.mesh, 2.5);
-    const bool chosen = model_level.step == StepChoice::by_tolerance || model_level.step == StepChoice::adaptive;
-    const double steps = chosen ? 16.0 : std::exp2(model_level.halvings); // 16: passes with whole steps to eighths
+    double steps = std::exp2(model_level.halvings);
+    if (model_level.step == StepChoice::adaptive) steps = 16.0; // passes with whole steps to eighths
+    if (model_level.step == StepChoice::by_tolerance) steps = corrects_steps ? 6.0 : 16.0; // quarters and few modes; the same passes
     const double run = nearest->seconds - nearest->set_up_seconds;
     const double water = nearest->model_level.water == model_level.water ? 1.0 : 2.0;
     return water * unknowns * (nearest->set_up_seconds + run * steps / std::exp2(nearest->model_level.halvings));
@@ -315,7 +316,7 @@ std::vector<ModelLevelResult> run_hierarchy(const HierarchyFacts& facts, const H
         if (calls.interrupted && calls.interrupted()) break;
         const double left = options.budget ? *options.budget - clock.seconds() : 0.0;
         const double least = calls.least_seconds ? calls.least_seconds(*model_level) : 0.0;
-        const double expected = std::max(least, expected_seconds(*model_level, results).value_or(0.0));
+        const double expected = std::max(least, expected_seconds(*model_level, results, facts.corrects_steps).value_or(0.0));
         if (options.budget && expected >= left)
             results.push_back(skipped(*model_level, expected, left));
         else {

@@ -24,6 +24,7 @@ struct HierarchyFacts {
     bool reducible = false;               ///< the first of them can run on few modes
     std::vector<double> alphas;           ///< of HHT, other than the scene's [-]
     bool own_settings = false;            ///< the scene fixes step or contact law otherwise than the hierarchy
+    bool corrects_steps = false;          ///< steps that are chosen are corrected, not halved (set_corrector)
     bool radiates = false;                ///< the rock that the model levels stand on
     std::vector<std::string> other_models; ///< OtherModel::level_word of those that are run beside the scene's
     bool quadratic = false;               ///< the scene's elements are linear: quadratic ones are tried beside them
@@ -66,7 +67,8 @@ std::vector<const ModelLevelResult*> mesh_column(const std::vector<ModelLevelRes
 std::vector<double> slips_of(const std::vector<const ModelLevelResult*>& model_levels, std::size_t motion);
 
 /// Seconds a model level will take, from the nearest of its model: steps times unknowns^1.25; nothing to go by: nothing.
-std::optional<double> expected_seconds(const ModelLevel& model_level, const std::vector<ModelLevelResult>& so_far);
+/// @param corrects_steps  as HierarchyFacts
+std::optional<double> expected_seconds(const ModelLevel& model_level, const std::vector<ModelLevelResult>& so_far, bool corrects_steps);
 
 struct HierarchyRunOptions {
     HierarchyOptions hierarchy;

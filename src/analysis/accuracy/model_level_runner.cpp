@@ -214,6 +214,9 @@ HierarchyFacts ModelLevelRunner::facts() const
     facts.waters = waters_of(scene_, facts.left_out);
     facts.reducible = can_reduce(scene_of(scene_, parse_model_level("fe-added-mass:dt").value()), facts.left_out);
     facts.alphas = other_alphas(scene_.time);
+    fe2d::RunOptions run;
+    set_corrector(scene_, run);
+    facts.corrects_steps = static_cast<bool>(run.corrector);
     facts.own_settings = scene_.time.substeps || with_exact_contact(scene_);
     facts.quadratic = linear_elements(scene_.mesh.element);
     if (!facts.quadratic)
