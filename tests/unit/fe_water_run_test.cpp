@@ -50,7 +50,8 @@ TEST(FeWaterRun, DamThatSticksIsTheTiedDam)
         tied_options.water = &water;
         const History whole = integrate(tied, motion, tied_options);
         ASSERT_EQ(whole.status, TiedRunStatus::complete);
-        EXPECT_DOUBLE_EQ(run.damping().mass, tied_options.damping.constants.mass);
+        const double mass = tied_options.damping.constants.mass; // the run's by modes on condensed rock: the same sums in another order
+        EXPECT_NEAR(run.damping().mass, mass, 1e-12 * mass);
         double damping = 0.0, radiated = 0.0;
         for (std::size_t k = 0; k < whole.rows.size(); ++k) {
             const Energy &a = contact.history.energy[k], &b = whole.rows[k].energy;
