@@ -177,7 +177,8 @@ time.gamma : 0.5 | 0.6 : time.scheme="newmark"; time.beta=0.3025
 time.beta : 0.25 | 0.3 : time.scheme="newmark"
 time.dt_s : 0.02 | 0.01
 time.substeps : 1 | 2
-time.stepping : "auto" | "uniform" | "adaptive" : time.substeps=-
+time.stepping : "auto" | "uniform" : time.substeps=-; time.slip_tolerance=0.05
+time.stepping : "uniform" | "adaptive" : time.substeps=-
 time.slip_tolerance : 0.01 | 0.2 : time.substeps=-
 contact.restitution : 0 | 0.5 : motion.scale=6; sliding.lift_off="ballistic"
 combination[].k_h : 0.05 | 0.1 : combination[].name="x"
