@@ -44,7 +44,7 @@ class WaterReduction {
 public:
     WaterReduction(const WaterBody& body, const MatrixXd& motions, double highest, const WaterReductionOptions& options)
         : body_(body), water_(body.water), options_(options), highest_(highest), kept_(options.kept),
-          solver_(water_.mass, water_.damping, water_.stiffness), wet_(face_pressures(body))
+          solver_(water_.mass, water_.damping, water_.stiffness, "its matrix"), wet_(face_pressures(body))
     {
         make_loads();
         make_trials(motions);
@@ -63,9 +63,11 @@ public:
         if (snapshots > options_.largest_snapshots)
             throw std::runtime_error(fmt::format("its waves are so short that it takes {} snapshots, {} are allowed",
                                                  snapshots, options_.largest_snapshots));
-        for (const double frequency : frequencies_) add_snapshots(frequency, growth * frequency, loads_);
-        add_snapshots(1.3 * highest_, 0.3 * highest_, loads_); // blows are short
-        add_snapshots(2.0 * highest_, highest_, loads_);
+        std::vector<FrequencySolver::At> sampled(frequencies_.size());
+        std::ranges::transform(frequencies_, sampled.begin(), at);
+        sampled.push_back({1.3 * highest_, 0.3 * highest_}); // blows are short
+        sampled.push_back({2.0 * highest_, highest_});
+        add_snapshots(sampled, loads_);
         choose_checks();
         int rounds = 0;
         double added = 0.0;
@@ -76,8 +78,8 @@ public:
             if (error_ <= options_.wanted || rounds == options_.largest_rounds) break;
             if (worst.frequency != added) {
                 added = worst.frequency;
-                add_snapshots(added, growth * added, loads_);
-                add_snapshots(added, growth * added, trials_);
+                add_snapshots(std::vector{at(added)}, loads_);
+                add_snapshots(std::vector{at(added)}, trials_);
             }
             kept_ *= 0.3;
         }
@@ -184,24 +186,19 @@ private:
         return p.leftCols(4);
     }
 
-    MatrixXcd solve(double frequency, double rate, const MatrixXd& loads)
-    {
-        if (!solver_.factorise(frequency, rate)) throw std::runtime_error("singular at a frequency");
-        MatrixXcd x = solver_.solve(loads);
-        if (!(solver_.residual() < 1e-8)) throw std::runtime_error("nearly singular at a frequency");
-        return x;
-    }
+    static FrequencySolver::At at(double frequency) { return {frequency, growth * frequency}; }
 
-    void add_snapshots(double frequency, double rate, const MatrixXd& loads)
+    void add_snapshots(std::span<const FrequencySolver::At> frequencies, const MatrixXd& loads)
     {
-        const MatrixXcd x = solve(frequency, rate, loads);
-        const Index before = snapshots_.cols();
-        snapshots_.conservativeResize(x.rows(), before + 2 * x.cols());
-        for (Index k = 0; k < x.cols(); ++k) {
-            const double energy = std::abs(x.col(k).cwiseProduct(loads.col(k)).sum()),
-                         scale = energy > 0.0 ? 1.0 / std::sqrt(energy) : 0.0;
-            snapshots_.col(before + 2 * k) = scale * x.col(k).real();
-            snapshots_.col(before + 2 * k + 1) = scale * x.col(k).imag();
+        for (const MatrixXcd& x : solver_.solve(frequencies, loads)) {
+            const Index before = snapshots_.cols();
+            snapshots_.conservativeResize(x.rows(), before + 2 * x.cols());
+            for (Index k = 0; k < x.cols(); ++k) {
+                const double energy = std::abs(x.col(k).cwiseProduct(loads.col(k)).sum()),
+                             scale = energy > 0.0 ? 1.0 / std::sqrt(energy) : 0.0;
+                snapshots_.col(before + 2 * k) = scale * x.col(k).real();
+                snapshots_.col(before + 2 * k + 1) = scale * x.col(k).imag();
+            }
         }
     }
 
@@ -217,12 +214,15 @@ private:
     void choose_checks()
     {
         const auto gaps = static_cast<int>(frequencies_.size());
+        std::vector<FrequencySolver::At> between;
         for (int k = 0; k < options_.checks; ++k) {
             const int gap = options_.checks > 1 ? (gaps - 1) * k / (options_.checks - 1) : gaps - 1;
-            const double lower = gap > 0 ? frequencies_[static_cast<std::size_t>(gap - 1)] : 0.0,
-                         frequency = 0.5 * (lower + frequencies_[static_cast<std::size_t>(gap)]);
-            checks_.push_back({frequency, felt_of(solve(frequency, growth * frequency, trials_), growing(frequency))});
+            const double lower = gap > 0 ? frequencies_[static_cast<std::size_t>(gap - 1)] : 0.0;
+            between.push_back(at(0.5 * (lower + frequencies_[static_cast<std::size_t>(gap)])));
         }
+        const std::vector<MatrixXcd> exact = solver_.solve(between, trials_);
+        for (std::size_t k = 0; k < between.size(); ++k)
+            checks_.push_back({between[k].frequency, felt_of(exact[k], growing(between[k].frequency))});
     }
 
     void project()

@@ -1,5 +1,6 @@
 #include "fe2d/rock/frequency_solver.hpp"
 
+#include "core/parallel.hpp"
 #include "fe2d/assembly/assemble.hpp"
 #include "fe2d/solver/linear_solver.hpp"
 
@@ -7,9 +8,8 @@
 #include <cassert>
 #include <cholmod.h>
 #include <cmath>
-#include <limits>
 #include <new>
-#include <vector>
+#include <stdexcept>
 
 extern "C" {
 void zsyrk_(const char* triangle, const char* turn, const int* n, const int* k, const std::complex<double>* alpha,
@@ -35,7 +35,9 @@ namespace {
 
 constexpr Complex one{1.0, 0.0}, minus_one{-1.0, 0.0};
 constexpr double good_residual = 1e-11;
+constexpr double allowed_residual = 1e-8;
 constexpr int most_refinements = 3;
+constexpr std::size_t most_factors = 4; ///< at a time: each takes as much memory as the first
 
 } // namespace
 
@@ -116,16 +118,13 @@ struct FrequencySolver::Implementation {
     };
 
     Matrix mass, damping, stiffness; ///< of one pattern
+    std::string body;
     Elimination elimination;
-    Eigen::SparseMatrix<Complex> matrix;     ///< D
     std::vector<std::vector<Entry>> entries; ///< of D's lower triangle, by front
-    std::vector<Complex> panels;             ///< L, front by front
-    int factorisations = 0;
-    double residual = 0.0;
 
-    Implementation(Matrix m, Matrix c, Matrix k)
-        : mass(std::move(m)), damping(std::move(c)), stiffness(std::move(k)), elimination(stiffness),
-          matrix(stiffness.cast<Complex>()), panels(elimination.panel_size)
+    Implementation(SharedPattern shared, std::string name)
+        : mass(std::move(shared.mass)), damping(std::move(shared.damping)), stiffness(std::move(shared.stiffness)),
+          body(std::move(name)), elimination(stiffness)
     {
         // entries of the lower triangle by the front of their column in the new order
         const auto& new_of = elimination.new_of;
@@ -144,28 +143,43 @@ struct FrequencySolver::Implementation {
             }
     }
 
-    bool factorise();
-    void solve_in_place(MatrixXcd& b) const;
+    /// D at one frequency at a time, and its factor.
+    class Factor {
+    public:
+        explicit Factor(const Implementation& of)
+            : of_(of), matrix_(of.stiffness.cast<Complex>()), panels_(of.elimination.panel_size)
+        {
+        }
+        MatrixXcd solve(At at, const MatrixXd& loads);
+
+    private:
+        bool factorise();
+        void solve_in_place(MatrixXcd& b) const;
+
+        const Implementation& of_;
+        Eigen::SparseMatrix<Complex> matrix_; ///< D
+        std::vector<Complex> panels_;         ///< L, front by front
+    };
 };
 
 /// Fronts from the leaves up: a front is the sum of its own entries and of what its children leave to it.
-bool FrequencySolver::Implementation::factorise()
+bool FrequencySolver::Implementation::Factor::factorise()
 {
-    const std::vector<Front>& fronts = elimination.fronts;
+    const std::vector<Front>& fronts = of_.elimination.fronts;
     std::vector<MatrixXcd> left(fronts.size()); ///< of each front on its other rows, lower triangle
     std::vector<std::vector<int>> children(fronts.size());
-    std::vector<int> local(elimination.new_of.size());
+    std::vector<int> local(of_.elimination.new_of.size());
     MatrixXcd panel;
     for (std::size_t f = 0; f < fronts.size(); ++f) {
         const Front& front = fronts[f];
         const int size = front.size(), columns = front.columns, rest = size - columns;
         for (int k = 0; k < size; ++k) local[static_cast<std::size_t>(front.rows[static_cast<std::size_t>(k)])] = k;
-        Eigen::Map<MatrixXcd> own(panels.data() + front.place, size, columns);
+        Eigen::Map<MatrixXcd> own(panels_.data() + front.place, size, columns);
         own.setZero();
         MatrixXcd& other = left[f];
         other.setZero(rest, rest);
-        for (const Entry& e : entries[f])
-            own(local[static_cast<std::size_t>(e.row)], e.column - front.first) += matrix.valuePtr()[e.place];
+        for (const Entry& e : of_.entries[f])
+            own(local[static_cast<std::size_t>(e.row)], e.column - front.first) += matrix_.valuePtr()[e.place];
         for (const int child : children[f]) {
             const Front& c = fronts[static_cast<std::size_t>(child)];
             MatrixXcd& update = left[static_cast<std::size_t>(child)];
@@ -199,16 +213,16 @@ bool FrequencySolver::Implementation::factorise()
     return true;
 }
 
-void FrequencySolver::Implementation::solve_in_place(MatrixXcd& b) const
+void FrequencySolver::Implementation::Factor::solve_in_place(MatrixXcd& b) const
 {
-    const std::vector<Front>& fronts = elimination.fronts;
+    const std::vector<Front>& fronts = of_.elimination.fronts;
     const Index n = b.rows(), count = b.cols();
     const int loads = static_cast<int>(count), ldb = static_cast<int>(n);
     MatrixXcd x(n, count), rest;
-    for (Index i = 0; i < n; ++i) x.row(elimination.new_of[static_cast<std::size_t>(i)]) = b.row(i);
+    for (Index i = 0; i < n; ++i) x.row(of_.elimination.new_of[static_cast<std::size_t>(i)]) = b.row(i);
     for (const Front& front : fronts) {
         const int size = front.size(), columns = front.columns, others = size - columns;
-        const Complex* const own = panels.data() + front.place;
+        const Complex* const own = panels_.data() + front.place;
         Complex* const here = x.data() + front.first;
         ztrsm_("L", "L", "N", "N", &columns, &loads, &one, own, &size, here, &ldb);
         if (others == 0) continue;
@@ -222,7 +236,7 @@ void FrequencySolver::Implementation::solve_in_place(MatrixXcd& b) const
     for (auto it = fronts.rbegin(); it != fronts.rend(); ++it) {
         const Front& front = *it;
         const int size = front.size(), columns = front.columns, others = size - columns;
-        const Complex* const own = panels.data() + front.place;
+        const Complex* const own = panels_.data() + front.place;
         Complex* const here = x.data() + front.first;
         if (others > 0) {
             rest.resize(others, count);
@@ -234,57 +248,60 @@ void FrequencySolver::Implementation::solve_in_place(MatrixXcd& b) const
         }
         ztrsm_("L", "L", "T", "N", &columns, &loads, &one, own, &size, here, &ldb);
     }
-    for (Index i = 0; i < n; ++i) b.row(i) = x.row(elimination.new_of[static_cast<std::size_t>(i)]);
+    for (Index i = 0; i < n; ++i) b.row(i) = x.row(of_.elimination.new_of[static_cast<std::size_t>(i)]);
 }
 
-FrequencySolver::FrequencySolver(const Matrix& mass, const Matrix& damping, const Matrix& stiffness)
+MatrixXcd FrequencySolver::Implementation::Factor::solve(At at, const MatrixXd& loads)
 {
-    use_one_blas_thread();
-    const SharedPattern shared = on_one_pattern(mass, damping, stiffness);
-    implementation_ = std::make_unique<Implementation>(shared.mass, shared.damping, shared.stiffness);
-}
-
-FrequencySolver::~FrequencySolver() = default;
-
-bool FrequencySolver::factorise(double frequency, double growth)
-{
-    Implementation& s = *implementation_;
-    const Complex place(growth, frequency), square = place * place;
-    for (Index k = 0; k < s.matrix.nonZeros(); ++k)
-        s.matrix.valuePtr()[k] =
-            s.stiffness.valuePtr()[k] + place * s.damping.valuePtr()[k] + square * s.mass.valuePtr()[k];
-    ++s.factorisations;
-    return s.factorise();
-}
-
-MatrixXcd FrequencySolver::solve(const MatrixXd& loads)
-{
-    Implementation& s = *implementation_;
-    assert(loads.rows() == s.matrix.rows());
+    assert(loads.rows() == matrix_.rows());
+    const Complex place(at.growth, at.frequency), square = place * place;
+    for (Index k = 0; k < matrix_.nonZeros(); ++k)
+        matrix_.valuePtr()[k] =
+            of_.stiffness.valuePtr()[k] + place * of_.damping.valuePtr()[k] + square * of_.mass.valuePtr()[k];
+    if (!factorise()) throw std::runtime_error(of_.body + " is singular at a frequency");
     const MatrixXcd b = loads.cast<Complex>();
     MatrixXcd x = b;
-    s.solve_in_place(x);
-    s.residual = std::numeric_limits<double>::infinity();
+    solve_in_place(x);
     for (int k = 0;; ++k) {
-        MatrixXcd rest = b - s.matrix * x;
+        MatrixXcd rest = b - matrix_ * x;
         double worst = 0.0;
         for (Index column = 0; column < b.cols(); ++column)
             if (const double size = b.col(column).norm(); size > 0.0)
                 worst = std::max(worst, rest.col(column).norm() / size);
-        s.residual = worst;
-        if (!(worst > good_residual) || k == most_refinements) return x;
-        s.solve_in_place(rest);
+        if (worst <= good_residual) return x;
+        if (k == most_refinements) {
+            if (worst < allowed_residual) return x;
+            throw std::runtime_error(of_.body + " is nearly singular at a frequency");
+        }
+        solve_in_place(rest);
         x += rest;
     }
 }
 
-double FrequencySolver::residual() const
+FrequencySolver::FrequencySolver(const Matrix& mass, const Matrix& damping, const Matrix& stiffness, std::string body)
 {
-    return implementation_->residual;
+    use_one_blas_thread();
+    implementation_ = std::make_unique<const Implementation>(on_one_pattern(mass, damping, stiffness), std::move(body));
 }
-int FrequencySolver::factorisations() const
+
+FrequencySolver::~FrequencySolver() = default;
+
+std::vector<MatrixXcd> FrequencySolver::solve(std::span<const At> frequencies, const MatrixXd& loads) const
 {
-    return implementation_->factorisations;
+    std::vector<MatrixXcd> solutions(frequencies.size());
+    const std::size_t factors =
+        std::min({frequencies.size(), most_factors, static_cast<std::size_t>(thread_count(0))});
+    parallel_for(factors, 0, [&](std::size_t first) {
+        Implementation::Factor factor(*implementation_);
+        for (std::size_t k = first; k < frequencies.size(); k += factors)
+            solutions[k] = factor.solve(frequencies[k], loads);
+    });
+    return solutions;
+}
+
+MatrixXcd FrequencySolver::solve(At frequency, const MatrixXd& loads) const
+{
+    return std::move(solve(std::span(&frequency, 1), loads).front());
 }
 
 } // namespace damslip::fe2d

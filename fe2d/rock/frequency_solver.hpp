@@ -3,39 +3,42 @@
 #include <Eigen/SparseCore>
 #include <complex>
 #include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace damslip::fe2d {
 
-/// (K + sC + s²M) x = b, s = σ + iω, of one body at one frequency after another: complex symmetric L Lᵀ (no conjugates) by fronts,
+/// (K + sC + s²M) x = b, s = σ + iω, of one body at several frequencies: complex symmetric L Lᵀ (no conjugates) by fronts,
 /// ordered once for all frequencies (CHOLMOD), without pivoting. What that costs in digits is checked by every solution's
 /// residual and mended by iterative refinement. A third of the time of an unsymmetric LU with pivoting (UMFPACK).
-/// BLAS runs on one thread. One object belongs to one thread at a time.
+/// BLAS runs on one thread.
 class FrequencySolver {
 public:
     using Matrix = Eigen::SparseMatrix<double>;
 
+    struct At {
+        double frequency;    ///< ω [rad/s]
+        double growth = 0.0; ///< σ >= 0 of loads that grow with e^{σt} [1/s]
+    };
+
     /// @param mass, damping, stiffness  symmetric, of one size, stored whole
+    /// @param body  subject of messages
     /// @throws std::bad_alloc
-    FrequencySolver(const Matrix& mass, const Matrix& damping, const Matrix& stiffness);
+    FrequencySolver(const Matrix& mass, const Matrix& damping, const Matrix& stiffness, std::string body);
     ~FrequencySolver();
     FrequencySolver(const FrequencySolver&) = delete;
     FrequencySolver& operator=(const FrequencySolver&) = delete;
 
-    /// @param frequency  ω [rad/s]
-    /// @param growth  σ >= 0 of loads that grow with e^{σt} [1/s]
-    /// @returns whether all pivots are usable
-    bool factorise(double frequency, double growth = 0.0);
-
-    /// Real loads, one column each. Needs a factorisation that did not fail.
-    /// @returns solutions; residual() says how good they are
-    Eigen::MatrixXcd solve(const Eigen::MatrixXd& loads);
-
-    double residual() const; ///< largest ‖D x - b‖/‖b‖ of the last solve() [-]
-    int factorisations() const;
+    /// @param loads  real ones, one column each, the same at each frequency
+    /// @returns a solution for each frequency; which core finds it does not change it
+    /// @throws std::runtime_error  where a pivot is zero or ‖D x - b‖ > 1e-8 ‖b‖
+    std::vector<Eigen::MatrixXcd> solve(std::span<const At> frequencies, const Eigen::MatrixXd& loads) const;
+    Eigen::MatrixXcd solve(At frequency, const Eigen::MatrixXd& loads) const;
 
 private:
     struct Implementation;
-    std::unique_ptr<Implementation> implementation_;
+    std::unique_ptr<const Implementation> implementation_;
 };
 
 } // namespace damslip::fe2d

@@ -32,10 +32,7 @@ constexpr std::size_t random_loads = 2;
 /// Sampled beyond the highest frequency, where loads grow with e^{σt}: σ, ω over the highest ω. Blows are short: without
 /// these the rock's answer to one of 20 ms at b_K 0.9 ms is off by 11 ... 15 % of its peak, with them by 0.7 % (25 Hz), and nearly undamped
 /// modes of twice that frequency are gone.
-struct Beyond {
-    double growth, frequency;
-};
-constexpr Beyond beyond[]{{0.3, 1.3}, {1.0, 2.0}};
+constexpr FrequencySolver::At beyond[]{{.frequency = 1.3, .growth = 0.3}, {.frequency = 2.0, .growth = 1.0}};
 
 MatrixXd product(char turn, const MatrixXd& a, const MatrixXd& b)
 {
@@ -169,7 +166,7 @@ double reach(const WaveBoxInput& input, double frequency)
 class Reduction {
 public:
     Reduction(const WaveBoxInput& input, const WaveBox& box, const ReductionOptions& options)
-        : input_(input), box_(box), options_(options), solver_(box.mass, box.damping, box.stiffness),
+        : input_(input), box_(box), options_(options), solver_(box.mass, box.damping, box.stiffness, "the rock's box"),
           kept_(options.kept), frequencies_(sampled_frequencies(input, options.sampling))
     {
         loads_ = legendre_loads(base_of(input), degrees_on(base_of(input)));
@@ -190,9 +187,11 @@ public:
     {
         const Stopwatch watch;
         solve_statics();
-        for (const double frequency : frequencies_) add_snapshots(frequency, 0.0, loads_);
-        for (const Beyond& b : beyond)
-            add_snapshots(b.frequency * input_.highest_frequency, b.growth * input_.highest_frequency, loads_);
+        std::vector<FrequencySolver::At> sampled(frequencies_.size());
+        std::ranges::transform(frequencies_, sampled.begin(), [](double f) { return FrequencySolver::At{f}; });
+        for (const FrequencySolver::At& b : beyond)
+            sampled.push_back({b.frequency * input_.highest_frequency, b.growth * input_.highest_frequency});
+        add_snapshots(sampled, loads_);
         choose_checks();
         ReducedRock rock;
         int rounds = 0;
@@ -204,7 +203,7 @@ public:
             MatrixXd both(loads_.rows(), loads_.cols() + random_.cols());
             both << loads_, random_;
             if (const double frequency = checks_[worst].frequency; frequency != added_) {
-                add_snapshots(frequency, 0.0, both);
+                add_snapshots(std::vector{FrequencySolver::At{frequency}}, both);
                 frequencies_.push_back(frequency);
                 added_ = frequency;
             }
@@ -279,39 +278,32 @@ private:
         add(product('N', x, loads_), (loads_.transpose() * flexibility_ * loads_).diagonal());
     }
 
-    /// Displacements of the box by loads on its interface.
-    MatrixXcd solve(double frequency, double growth, const MatrixXd& loads)
+    void add_snapshots(std::span<const FrequencySolver::At> frequencies, const MatrixXd& loads)
     {
-        if (!solver_.factorise(frequency, growth))
-            throw std::runtime_error("the rock's box is singular at a frequency");
-        const MatrixXcd x = solver_.solve(on_box(loads));
-        if (!(solver_.residual() < 1e-8)) throw std::runtime_error("the rock's box is nearly singular at a frequency");
-        return x;
-    }
-
-    void add_snapshots(double frequency, double growth, const MatrixXd& loads)
-    {
-        if (!solver_.factorise(frequency, growth))
-            throw std::runtime_error("the rock's box is singular at a frequency");
-        const MatrixXcd x = solver_.solve(on_box(loads));
-        const MatrixXcd u = on_interface(x);
-        VectorXd flexibility(loads.cols());
-        for (Index k = 0; k < loads.cols(); ++k) flexibility[k] = std::abs(u.col(k).cwiseProduct(loads.col(k)).sum());
-        add(x.real(), flexibility);
-        add(x.imag(), flexibility);
+        for (const MatrixXcd& x : solver_.solve(frequencies, on_box(loads))) {
+            const MatrixXcd u = on_interface(x);
+            VectorXd flexibility(loads.cols());
+            for (Index k = 0; k < loads.cols(); ++k)
+                flexibility[k] = std::abs(u.col(k).cwiseProduct(loads.col(k)).sum());
+            add(x.real(), flexibility);
+            add(x.imag(), flexibility);
+        }
     }
 
     /// In the middle between sampled frequencies, from the first gap to the last.
     void choose_checks()
     {
         const auto gaps = static_cast<int>(frequencies_.size());
+        std::vector<FrequencySolver::At> between;
         for (int k = 0; k < options_.checks; ++k) {
             const int gap = options_.checks > 1 ? (gaps - 1) * k / (options_.checks - 1) : gaps - 1;
             const double upper = frequencies_[static_cast<std::size_t>(gap)],
                          lower = gap > 0 ? frequencies_[static_cast<std::size_t>(gap - 1)] : 0.0;
-            const double frequency = 0.5 * (lower + upper);
-            checks_.push_back({frequency, on_interface(solve(frequency, 0.0, random_))});
+            between.push_back({0.5 * (lower + upper)});
         }
+        const std::vector<MatrixXcd> exact = solver_.solve(between, on_box(random_));
+        for (std::size_t k = 0; k < between.size(); ++k)
+            checks_.push_back({between[k].frequency, on_interface(exact[k])});
     }
 
     double size(const Eigen::VectorXcd& u) const

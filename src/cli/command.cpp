@@ -2,6 +2,7 @@
 
 #include "cli/verifier.hpp"
 #include "core/input_error.hpp"
+#include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "pages/report/json.hpp"
 
@@ -129,7 +130,9 @@ CLI::Validator in_range(double low, double high)
 
 CLI::Option* add_jobs(CLI::App& sub, int& jobs, const std::string& text)
 {
-    return sub.add_option("-j,--jobs", jobs, text)->check(CLI::Range(0, 1024));
+    return sub.add_option("-j,--jobs", jobs, text)->check(CLI::Range(0, 1024))->each([](const std::string& value) {
+        use_threads(std::stoi(value));
+    });
 }
 
 CLI::Option* add_out(CLI::App& sub, std::filesystem::path& target, OutputPath kind, const std::string& text,

@@ -56,25 +56,27 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
-enum class ProcessorTimeOf { thread, process }; ///< the calling thread, or all threads of the program
+enum class ProcessorTimeOf { thread, process }; ///< the calling thread and what worked for it, or all threads of the program
 
 /// Processor time since it was made: what a run costs, whatever else the machine does.
 class ProcessorClock {
 public:
-    explicit ProcessorClock(ProcessorTimeOf whose = ProcessorTimeOf::thread)
-        : clock_(whose == ProcessorTimeOf::thread ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID), start_(now())
-    {
-    }
+    explicit ProcessorClock(ProcessorTimeOf whose = ProcessorTimeOf::thread) : whose_(whose), start_(now()) {}
     double seconds() const { return now() - start_; } ///< [s]
+
+    /// What other threads took for the calling one, which waited for them (parallel_for) [s].
+    static void charge(double seconds) { charged_ += seconds; }
 
 private:
     double now() const
     {
+        const bool thread = whose_ == ProcessorTimeOf::thread;
         std::timespec t{};
-        clock_gettime(clock_, &t);
-        return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+        clock_gettime(thread ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID, &t);
+        return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec) + (thread ? charged_ : 0.0);
     }
-    clockid_t clock_;
+    static inline thread_local double charged_ = 0.0;
+    ProcessorTimeOf whose_;
     double start_;
 };
 

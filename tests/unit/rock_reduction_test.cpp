@@ -32,9 +32,8 @@ Matrix on_interface(const WaveBox& box, const Matrix& all)
 
 MatrixXcd exact_response(const WaveBox& box, double frequency, const MatrixXd& loads)
 {
-    FrequencySolver solver(box.mass, box.damping, box.stiffness);
-    EXPECT_TRUE(solver.factorise(frequency));
-    return on_interface(box, solver.solve(on_box(box, loads)));
+    const FrequencySolver solver(box.mass, box.damping, box.stiffness, "the box");
+    return on_interface(box, solver.solve({frequency}, on_box(box, loads)));
 }
 
 MatrixXd identity(const WaveBox& box)
