@@ -25,16 +25,6 @@ constexpr double growth = 0.01; ///< σ/ω of sampled frequencies
 constexpr double samples_per_cut_off = 3.0;
 constexpr int least_samples = 6;
 
-MatrixXd symmetric(const MatrixXd& m)
-{
-    return 0.5 * (m + m.transpose());
-}
-
-MatrixXd projected(const SparseMatrix& matrix, const MatrixXd& basis)
-{
-    return symmetric(basis.transpose() * (matrix * basis).eval());
-}
-
 std::complex<double> growing(double frequency)
 {
     return {growth * frequency, frequency};
@@ -190,16 +180,17 @@ private:
 
     void add_snapshots(std::span<const FrequencySolver::At> frequencies, const MatrixXd& loads)
     {
-        for (const MatrixXcd& x : solver_.solve(frequencies, loads)) {
-            const Index before = snapshots_.cols();
-            snapshots_.conservativeResize(x.rows(), before + 2 * x.cols());
-            for (Index k = 0; k < x.cols(); ++k) {
+        const Index n = loads.cols(), before = snapshots_.cols();
+        snapshots_.conservativeResize(loads.rows(), before + 2 * n * static_cast<Index>(frequencies.size()));
+        solver_.solve(frequencies, loads, [&](std::size_t at, const MatrixXcd& x) {
+            const Index first = before + 2 * n * static_cast<Index>(at);
+            for (Index k = 0; k < n; ++k) {
                 const double energy = std::abs(x.col(k).cwiseProduct(loads.col(k)).sum()),
                              scale = energy > 0.0 ? 1.0 / std::sqrt(energy) : 0.0;
-                snapshots_.col(before + 2 * k) = scale * x.col(k).real();
-                snapshots_.col(before + 2 * k + 1) = scale * x.col(k).imag();
+                snapshots_.col(first + 2 * k) = scale * x.col(k).real();
+                snapshots_.col(first + 2 * k + 1) = scale * x.col(k).imag();
             }
-        }
+        });
     }
 
     template <class Matrix>
@@ -220,9 +211,10 @@ private:
             const double lower = gap > 0 ? frequencies_[static_cast<std::size_t>(gap - 1)] : 0.0;
             between.push_back(at(0.5 * (lower + frequencies_[static_cast<std::size_t>(gap)])));
         }
-        const std::vector<MatrixXcd> exact = solver_.solve(between, trials_);
-        for (std::size_t k = 0; k < between.size(); ++k)
-            checks_.push_back({between[k].frequency, felt_of(exact[k], growing(between[k].frequency))});
+        checks_.resize(between.size());
+        solver_.solve(between, trials_, [&](std::size_t k, const MatrixXcd& exact) {
+            checks_[k] = {between[k].frequency, felt_of(exact, growing(between[k].frequency))};
+        });
     }
 
     void project()
@@ -233,7 +225,7 @@ private:
         const auto basis_of = [&](const SparseMatrix& norm, Index first, Index count) {
             MatrixXd part = MatrixXd::Zero(n, snapshots_.cols());
             part.middleRows(first, count) = snapshots_.middleRows(first, count);
-            return MatrixXd(part * leading_directions(symmetric(part.transpose() * (norm * part).eval()), kept_));
+            return MatrixXd(part * leading_directions(projected(norm, part), kept_));
         };
         const MatrixXd mesh = basis_of(of_pressures, 0, pressures),
                        layers = momenta > 0 ? basis_of(-middle * water_.damping, pressures, momenta) : MatrixXd(n, 0);

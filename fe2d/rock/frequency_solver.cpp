@@ -5,6 +5,7 @@
 #include "fe2d/solver/linear_solver.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cholmod.h>
 #include <cmath>
@@ -286,22 +287,27 @@ FrequencySolver::FrequencySolver(const Matrix& mass, const Matrix& damping, cons
 
 FrequencySolver::~FrequencySolver() = default;
 
-std::vector<MatrixXcd> FrequencySolver::solve(std::span<const At> frequencies, const MatrixXd& loads) const
+void FrequencySolver::solve(std::span<const At> frequencies, const MatrixXd& loads,
+                            const std::function<void(std::size_t, const MatrixXcd&)>& take,
+                            const std::function<void()>& beside) const
 {
-    std::vector<MatrixXcd> solutions(frequencies.size());
-    const std::size_t factors =
-        std::min({frequencies.size(), most_factors, static_cast<std::size_t>(thread_count(0))});
-    parallel_for(factors, 0, [&](std::size_t first) {
-        Implementation::Factor factor(*implementation_);
-        for (std::size_t k = first; k < frequencies.size(); k += factors)
-            solutions[k] = factor.solve(frequencies[k], loads);
+    const std::size_t factors = std::min({frequencies.size(), most_factors, static_cast<std::size_t>(thread_count(0))});
+    std::atomic<std::size_t> next{0};
+    parallel_for(factors + 1, 0, [&](std::size_t task) {
+        if (task == 0) {
+            if (beside) beside();
+            return;
+        }
+        std::size_t k = next.fetch_add(1);
+        if (k >= frequencies.size()) return;
+        for (Implementation::Factor factor(*implementation_); k < frequencies.size(); k = next.fetch_add(1))
+            take(k, factor.solve(frequencies[k], loads));
     });
-    return solutions;
 }
 
 MatrixXcd FrequencySolver::solve(At frequency, const MatrixXd& loads) const
 {
-    return std::move(solve(std::span(&frequency, 1), loads).front());
+    return Implementation::Factor(*implementation_).solve(frequency, loads);
 }
 
 } // namespace damslip::fe2d

@@ -2,10 +2,10 @@
 
 #include <Eigen/SparseCore>
 #include <complex>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace damslip::fe2d {
 
@@ -30,10 +30,14 @@ public:
     FrequencySolver(const FrequencySolver&) = delete;
     FrequencySolver& operator=(const FrequencySolver&) = delete;
 
-    /// @param loads  real ones, one column each, the same at each frequency
-    /// @returns a solution for each frequency; which core finds it does not change it
+    /// Solutions for the same loads at several frequencies, on several threads (use_threads()).
+    /// @param loads  real ones, one column each
+    /// @param take  gets the number of a frequency and its solutions, of several frequencies at a time
+    /// @param beside  other work for these threads
     /// @throws std::runtime_error  where a pivot is zero or ‖D x - b‖ > 1e-8 ‖b‖
-    std::vector<Eigen::MatrixXcd> solve(std::span<const At> frequencies, const Eigen::MatrixXd& loads) const;
+    void solve(std::span<const At> frequencies, const Eigen::MatrixXd& loads,
+               const std::function<void(std::size_t, const Eigen::MatrixXcd&)>& take,
+               const std::function<void()>& beside = {}) const;
     Eigen::MatrixXcd solve(At frequency, const Eigen::MatrixXd& loads) const;
 
 private:

@@ -1,5 +1,6 @@
 #include "fe2d/rock/reduce_rock.hpp"
 
+#include "core/parallel.hpp"
 #include "core/watch.hpp"
 #include "fe2d/model/model.hpp"
 #include "fe2d/rock/frequency_solver.hpp"
@@ -34,10 +35,10 @@ constexpr std::size_t random_loads = 2;
 /// modes of twice that frequency are gone.
 constexpr FrequencySolver::At beyond[]{{.frequency = 1.3, .growth = 0.3}, {.frequency = 2.0, .growth = 1.0}};
 
-MatrixXd product(char turn, const MatrixXd& a, const MatrixXd& b)
+MatrixXd product(char turn, Eigen::Ref<const MatrixXd> a, const MatrixXd& b)
 {
     const int m = static_cast<int>(turn == 'T' ? a.cols() : a.rows()), k = static_cast<int>(b.rows()),
-              n = static_cast<int>(b.cols()), lda = static_cast<int>(a.rows());
+              n = static_cast<int>(b.cols()), lda = static_cast<int>(a.outerStride());
     const double one = 1.0, zero = 0.0;
     MatrixXd c(m, n);
     dgemm_(&turn, "N", &m, &n, &k, &one, a.data(), &lda, b.data(), &k, &zero, c.data(), &m);
@@ -186,12 +187,11 @@ public:
     ReducedRock run()
     {
         const Stopwatch watch;
-        solve_statics();
         std::vector<FrequencySolver::At> sampled(frequencies_.size());
         std::ranges::transform(frequencies_, sampled.begin(), [](double f) { return FrequencySolver::At{f}; });
         for (const FrequencySolver::At& b : beyond)
             sampled.push_back({b.frequency * input_.highest_frequency, b.growth * input_.highest_frequency});
-        add_snapshots(sampled, loads_);
+        add_snapshots(sampled, loads_, [this] { solve_statics(); });
         choose_checks();
         ReducedRock rock;
         int rounds = 0;
@@ -260,12 +260,11 @@ private:
         return all;
     }
 
-    /// Columns x for loads whose flexibility is |pᵀ u_c|.
-    void add(const MatrixXd& x, const VectorXd& flexibility)
+    /// From `first` on: columns x for loads whose flexibility is |pᵀ u_c|.
+    template <class Matrix>
+    void put(Index first, const Matrix& x, const VectorXd& flexibility)
     {
-        const Index before = snapshots_.cols();
-        snapshots_.conservativeResize(x.rows(), before + x.cols());
-        snapshots_.rightCols(x.cols()) = x * flexibility.cwiseSqrt().cwiseInverse().asDiagonal();
+        snapshots_.middleCols(first, x.cols()) = x * flexibility.cwiseSqrt().cwiseInverse().asDiagonal();
     }
 
     void solve_statics()
@@ -275,19 +274,24 @@ private:
             throw std::runtime_error("the rock's box cannot be factorised: " + text_of(solver.report().note()));
         const MatrixXd x = solver.solve(on_box(MatrixXd::Identity(rows(), rows())));
         flexibility_ = symmetric(on_interface(x));
-        add(product('N', x, loads_), (loads_.transpose() * flexibility_ * loads_).diagonal());
+        put(0, product('N', x, loads_), (loads_.transpose() * flexibility_ * loads_).diagonal());
     }
 
-    void add_snapshots(std::span<const FrequencySolver::At> frequencies, const MatrixXd& loads)
+    /// @param statics  of the first ones, which come before all
+    void add_snapshots(std::span<const FrequencySolver::At> frequencies, const MatrixXd& loads,
+                       const std::function<void()>& statics = {})
     {
-        for (const MatrixXcd& x : solver_.solve(frequencies, on_box(loads))) {
+        const Index n = loads.cols(), before = statics ? n : snapshots_.cols();
+        snapshots_.conservativeResize(2 * box_.nodes, before + 2 * n * static_cast<Index>(frequencies.size()));
+        const auto take = [&](std::size_t k, const MatrixXcd& x) {
             const MatrixXcd u = on_interface(x);
-            VectorXd flexibility(loads.cols());
-            for (Index k = 0; k < loads.cols(); ++k)
-                flexibility[k] = std::abs(u.col(k).cwiseProduct(loads.col(k)).sum());
-            add(x.real(), flexibility);
-            add(x.imag(), flexibility);
-        }
+            VectorXd flexibility(n);
+            for (Index i = 0; i < n; ++i) flexibility[i] = std::abs(u.col(i).cwiseProduct(loads.col(i)).sum());
+            const Index first = before + 2 * n * static_cast<Index>(k);
+            put(first, x.real(), flexibility);
+            put(first + n, x.imag(), flexibility);
+        };
+        solver_.solve(frequencies, on_box(loads), take, statics);
     }
 
     /// In the middle between sampled frequencies, from the first gap to the last.
@@ -301,9 +305,10 @@ private:
                          lower = gap > 0 ? frequencies_[static_cast<std::size_t>(gap - 1)] : 0.0;
             between.push_back({0.5 * (lower + upper)});
         }
-        const std::vector<MatrixXcd> exact = solver_.solve(between, on_box(random_));
-        for (std::size_t k = 0; k < between.size(); ++k)
-            checks_.push_back({between[k].frequency, on_interface(exact[k])});
+        checks_.resize(between.size());
+        solver_.solve(between, on_box(random_), [&](std::size_t k, const MatrixXcd& exact) {
+            checks_[k] = {between[k].frequency, on_interface(exact)};
+        });
     }
 
     double size(const Eigen::VectorXcd& u) const
@@ -332,11 +337,9 @@ private:
     {
         const double middle = 0.5 * input_.highest_frequency;
         const SparseMatrix norm = box_.stiffness + middle * middle * box_.mass;
-        const MatrixXd basis =
-            product('N', snapshots_, leading_directions(symmetric(product('T', snapshots_, norm * snapshots_)), kept_));
-        const MatrixXd stiffness = symmetric(product('T', basis, box_.stiffness * basis)),
-                       mass = symmetric(product('T', basis, box_.mass * basis)),
-                       damping = symmetric(product('T', basis, box_.damping * basis));
+        const MatrixXd basis = product('N', snapshots_, leading_directions(projected(norm, snapshots_), kept_)),
+                       stiffness = projected(box_.stiffness, basis), mass = projected(box_.mass, basis),
+                       damping = projected(box_.damping, basis);
         // M̂ = 1, K̂ diagonal
         const Eigen::LLT<MatrixXd> llt(mass);
         assert(llt.info() == Eigen::Success);
@@ -374,6 +377,20 @@ private:
 };
 
 } // namespace
+
+MatrixXd projected(const SparseMatrix& a, const MatrixXd& v)
+{
+    constexpr Index width = 32;
+    const Index n = v.cols();
+    MatrixXd result(n, n);
+    parallel_for(static_cast<std::size_t>((n + width - 1) / width), 0, [&](std::size_t block) {
+        const Index first = width * static_cast<Index>(block), last = std::min(n, first + width);
+        const MatrixXd image = a * v.middleCols(first, last - first);
+        result.block(0, first, last, last - first) = product('T', v.leftCols(last), image);
+    });
+    result.triangularView<Eigen::StrictlyLower>() = result.transpose();
+    return result;
+}
 
 MatrixXd leading_directions(const MatrixXd& gram, double kept)
 {

@@ -34,6 +34,9 @@ struct ReductionOptions {
 /// loads, pseudo-random pressures on the floor alone.
 ReducedRock reduce_rock(const WaveBoxInput& input, const WaveBox& box, const ReductionOptions& options = {});
 
+/// Vᵀ A V of a symmetric A, symmetric to the bit: its upper triangle by blocks of columns, on several threads.
+Eigen::MatrixXd projected(const Eigen::SparseMatrix<double>& a, const Eigen::MatrixXd& v);
+
 /// Proper orthogonal decomposition: columns that make the leading directions of snapshots orthonormal.
 /// @param gram  of the snapshots @param kept  what may be left of one's square [-]
 Eigen::MatrixXd leading_directions(const Eigen::MatrixXd& gram, double kept);

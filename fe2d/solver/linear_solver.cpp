@@ -51,9 +51,14 @@ private:
 
 void use_one_blas_thread()
 {
-    using SetThreads = void (*)(int);
-    for (const char* name : {"openblas_set_num_threads", "omp_set_num_threads"})
-        if (const auto set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, name))) set(1);
+    const auto call = [](const char* name, int value) {
+        if (const auto set = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, name))) set(value);
+    };
+    // Asked for one where it has one, OpenBLAS starts a thread that was ended, which then looks for work for ever.
+    const auto blas_threads = reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
+    if (blas_threads && blas_threads() != 1) call("openblas_set_num_threads", 1);
+    call("omp_set_num_threads", 1);
+    call("omp_set_max_active_levels", 0); // CHOLMOD asks for four threads by name
 }
 
 namespace {
