@@ -188,7 +188,7 @@ void start_with_one_blas_thread(int, char** arguments, char** environment)
 /// command takes. Nothing needs them later: finite elements run BLAS with one thread (fe2d/solver/linear_solver.cpp).
 void end_blas_threads()
 {
-    fe2d::use_one_blas_thread(); // before: asked afterwards, OpenBLAS starts one again
+    damslip::fe2d::use_one_blas_thread(); // before: asked afterwards, OpenBLAS starts one again
     using Shutdown = int (*)();
     if (const auto shutdown = reinterpret_cast<Shutdown>(dlsym(RTLD_DEFAULT, "blas_thread_shutdown_"))) shutdown();
 }
