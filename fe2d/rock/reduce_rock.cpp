@@ -272,9 +272,17 @@ private:
         LinearSolver solver({.factorisation = Factorisation::supernodal});
         if (!solver.factorise(box_.stiffness).ok())
             throw std::runtime_error("the rock's box cannot be factorised: " + text_of(solver.report().note()));
-        const MatrixXd x = solver.solve(on_box(MatrixXd::Identity(rows(), rows())));
-        flexibility_ = symmetric(on_interface(x));
-        put(0, product('N', x, loads_), (loads_.transpose() * flexibility_ * loads_).diagonal());
+        constexpr Index width = 32; // of blocks: all columns at a time are as large as all snapshots
+        const MatrixXd each = MatrixXd::Identity(rows(), rows());
+        MatrixXd flexibility(rows(), rows()), x = MatrixXd::Zero(2 * box_.nodes, loads_.cols());
+        for (Index first = 0; first < rows(); first += width) {
+            const Index count = std::min(width, rows() - first);
+            const MatrixXd block = solver.solve(on_box(each.middleCols(first, count)));
+            flexibility.middleCols(first, count) = on_interface(block);
+            x.noalias() += block * loads_.middleRows(first, count);
+        }
+        flexibility_ = symmetric(flexibility);
+        put(0, x, (loads_.transpose() * flexibility_ * loads_).diagonal());
     }
 
     /// @param statics  of the first ones, which come before all

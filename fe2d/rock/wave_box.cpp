@@ -219,7 +219,10 @@ private:
 /// Sums element matrices onto the unknowns of the nodes that carry.
 class Sum {
 public:
-    Sum(const Grid& grid, const std::vector<int>& number) : grid_(grid), number_(number) {}
+    Sum(const Grid& grid, const std::vector<int>& number) : grid_(grid), number_(number)
+    {
+        entries_.reserve(64 * grid.elements().size());
+    }
 
     void add(std::span<const int> nodes, const ElementMatrix& matrix)
     {
