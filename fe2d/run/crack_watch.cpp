@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace damslip::fe2d {
 
@@ -133,7 +134,7 @@ void CrackLines::add_line(const Scene& scene, const ContactStructure& structure,
         pair.force.begin = static_cast<int>(node_.size());
         for (const auto& [node, values] : rows[nodes[i]]) {
             node_.push_back(node);
-            block_.push_back({{values[0], values[1], values[2], values[3], 0.0, 0.0}});
+            block_.push_back({{values[0], values[2]}, {values[1], values[3]}});
         }
         pair.force.end = static_cast<int>(node_.size());
         made.pairs.push_back(pair);
@@ -141,40 +142,38 @@ void CrackLines::add_line(const Scene& scene, const ContactStructure& structure,
     lines_.push_back(std::move(made));
 }
 
-double CrackLines::Line::index(const CrackLines& of, const VectorXd& u, const VectorXd& v, bool moving,
-                               double& distance) const
+double CrackLines::Line::index(const CrackLines& of, const VectorXd& felt, bool moving, double& distance) const
 {
     constexpr double no_end = std::numeric_limits<double>::infinity();
     double largest = 0.0, all_normal = 0.0, all_shear = 0.0, all_bond = 0.0;
-    const auto count = [&](double index, const PairOfLine& pair) {
-        if (index > largest) largest = index, distance = pair.distance;
+    const auto count = [&](double square, const PairOfLine& pair) {
+        if (square > largest) largest = square, distance = pair.distance;
     };
+    const auto square = [](double force, double strength) {
+        const double share = force <= 0.0 ? 0.0 : strength > 0.0 ? force / strength : no_end;
+        return share * share;
+    };
+    const double factor = moving ? increase : 1.0;
     for (const PairOfLine& pair : pairs) {
-        double x = 0.0, y = -pair.water;
+        Eigen::Vector2d force(0.0, -pair.water);
         for (int k = pair.force.begin; k < pair.force.end; ++k) {
             const Index n = of.node_[static_cast<std::size_t>(k)];
-            const double* m = of.block_[static_cast<std::size_t>(k)].m;
-            const double a = u[n] + of.stiffness_damping_ * v[n], b = u[n + 1] + of.stiffness_damping_ * v[n + 1];
-            x += m[0] * a + m[1] * b;
-            y += m[2] * a + m[3] * b;
+            const Block& block = of.block_[static_cast<std::size_t>(k)];
+            force += Eigen::Vector2d::Map(block.x) * felt[n] + Eigen::Vector2d::Map(block.y) * felt[n + 1];
         }
-        const double shear = std::abs(x), bond = cohesion * pair.area;
+        const double x = force.x(), y = force.y(), shear = std::abs(x), bond = cohesion * pair.area;
         all_normal += y, all_shear += x, all_bond += bond;
         if (bonded) {
-            const double over = std::max(0.0, shear - friction * std::max(0.0, y));
-            const auto share = [](double force, double strength) {
-                return force <= 0.0 ? 0.0 : strength > 0.0 ? force / strength : no_end;
-            };
-            const double factor = moving ? increase : 1.0;
-            count(std::hypot(share(-y, tension * pair.area), share(over, bond)) / factor, pair);
+            const double over = shear - friction * std::max(0.0, y);
+            count(square(-y, factor * tension * pair.area) + square(over, factor * bond), pair);
         } else if (!(y > 0.0)) // nothing holds tension
             count(no_end, pair);
         else if (!together || bond == 0.0)
-            count(shear / (friction * y + bond), pair);
+            count(square(shear, friction * y + bond), pair);
     }
     if (!bonded && together && all_bond > 0.0)
-        count(all_normal > 0.0 ? std::abs(all_shear) / (friction * all_normal + all_bond) : no_end, pairs.front());
-    return largest;
+        count(all_normal > 0.0 ? square(std::abs(all_shear), friction * all_normal + all_bond) : no_end, pairs.front());
+    return std::sqrt(largest);
 }
 
 void CrackLines::add_patches(const Scene& scene, const ContactStructure& structure, const std::vector<CrackStart>& begun)
@@ -284,8 +283,7 @@ CrackLines::Patch CrackLines::patch_about(const ContactStructure& structure, con
     Patch patch{{static_cast<int>(node_.size()), 0}, at, false};
     for (const auto& [node, values] : columns) {
         node_.push_back(node);
-        Block& block = block_.emplace_back();
-        std::copy(values.begin(), values.end(), block.m);
+        block_.push_back({{values[0], values[2], values[4]}, {values[1], values[3], values[5]}});
     }
     patch.stress.end = static_cast<int>(node_.size());
     return patch;
@@ -320,15 +318,16 @@ void CrackLines::add_paths(const Scene& scene, const ContactStructure& structure
 
 CrackLines::Tension CrackLines::tension_of(const Patch& patch, const VectorXd& u) const
 {
-    double xx = 0.0, yy = 0.0, xy = 0.0;
+    Eigen::Vector2d normal(0.0, 0.0);
+    double xy = 0.0;
     for (int k = patch.stress.begin; k < patch.stress.end; ++k) {
         const Index n = node_[static_cast<std::size_t>(k)];
-        const double* m = block_[static_cast<std::size_t>(k)].m;
+        const Block& block = block_[static_cast<std::size_t>(k)];
         const double a = u[n], b = u[n + 1];
-        xx += m[0] * a + m[1] * b;
-        yy += m[2] * a + m[3] * b;
-        xy += m[4] * a + m[5] * b;
+        normal += Eigen::Vector2d::Map(block.x) * a + Eigen::Vector2d::Map(block.y) * b;
+        xy += block.x[2] * a + block.y[2] * b;
     }
+    const double xx = normal.x(), yy = normal.y();
     // The crack runs along σ₂, a quarter turn from σ₁.
     return {0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy), 0.5 * std::atan2(-2.0 * xy, yy - xx)};
 }
@@ -373,10 +372,12 @@ void CrackWatch::look_at_paths(double time, const VectorXd& u, const VectorXd* d
 void CrackWatch::look(double time, const VectorXd& u, const VectorXd& v, const VectorXd* damage, CrackFigures& figures)
 {
     figures.known = true;
+    bool felt = false; // felt_ is of this step
     for (std::size_t k = 0; k < lines_.lines_.size(); ++k) {
         if (last_[k] < near_strength && steps_ % line_steps != 0) continue;
+        if (!std::exchange(felt, true)) felt_ = u + lines_.stiffness_damping_ * v;
         double distance = 0.0;
-        last_[k] = lines_.lines_[k].index(lines_, u, v, time > 0.0, distance);
+        last_[k] = lines_.lines_[k].index(lines_, felt_, time > 0.0, distance);
         TiedLift& lift = figures.lifts[k];
         if (last_[k] <= lift.index) continue;
         lift.index = last_[k];

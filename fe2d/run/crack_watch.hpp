@@ -91,8 +91,8 @@ private:
         bool bonded = false;                                  ///< breaks by energy
         bool together = false;                                ///< c is lost of the whole line at once
         double increase = 1.0;                                ///< of its bond in motion, Bond::dynamic_increase [-]
-        double index(const CrackLines& of, const Eigen::VectorXd& u, const Eigen::VectorXd& v, bool moving,
-                     double& distance) const;
+        /// @param felt  u + b_K v
+        double index(const CrackLines& of, const Eigen::VectorXd& felt, bool moving, double& distance) const;
     };
     struct Patch {
         Row stress;
@@ -104,7 +104,7 @@ private:
         double stress = 0.0, angle = 0.0;
     };
     struct Block {
-        double m[6]; ///< two or three rows by two columns
+        double x[3], y[3]; ///< two or three rows, by the displacement of a node in x and in y
     };
     void add_line(const Scene& scene, const ContactStructure& structure, const LiftJoint& lift,
                   const std::vector<int>& nodes);
@@ -141,6 +141,7 @@ private:
 
     const CrackLines& lines_;
     std::vector<double> last_; ///< index of each line when it was looked at
+    Eigen::VectorXd felt_;     ///< u + b_K v
     std::vector<std::vector<CrackLines::Tension>> before_; ///< of the paths, a step before
     double on_face_ = 0.0;     ///< largest so far [Pa]
     long steps_ = 0;

@@ -133,7 +133,7 @@ std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& run
                            std::isfinite(lift.error) ? fmt::format(" ± {} mm", two_digits(lift.error)) : "");
     if (worst.rigid)
         if (const auto rigid = reported(worst.rigid->status, worst.rigid->max_slip))
-            out += fmt::format("; the rigid block {:.4g} mm", *rigid / mm);
+            out += fmt::format("; the rigid block {:.4g} mm{}", *rigid / mm, over.empty() ? "" : " in that run");
     if (scene.criteria.allowable_slip)
         out += fmt::format("; allowable: {:.4g} mm", *scene.criteria.allowable_slip / mm);
     if (const double after = factor_after(runs); std::isfinite(after))

@@ -91,6 +91,32 @@ Curve governing_by_record(const Screening& s)
     return curve;
 }
 
+/// The larger one of both polarities, where both have one.
+Curve elastic_by_record(const Screening& s, const std::vector<std::string>& records)
+{
+    Curve curve{"finite elements", {}, {}, {}, {}, Mark::points, Weight::normal, 2};
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        double largest = 0.0;
+        bool found = false;
+        for (const ContactRun& run : s.elastic->runs) {
+            if (run.record != records[i]) continue;
+            const std::optional<double> slip = reported(run.fe.status, run.fe.max_slip);
+            largest = slip ? std::max(largest, std::abs(*slip) / mm) : nothing;
+            found = true;
+            if (!slip) break;
+        }
+        curve.x.push_back(static_cast<double>(i));
+        curve.y.push_back(found ? largest : nothing);
+    }
+    return curve;
+}
+
+/// Whose slips a chart of this file shows.
+std::string by_the_block(const Screening& s)
+{
+    return !s.slips.empty() && s.slips.front().of_dam ? " By the rigid block, no upper bound of an elastic dam." : "";
+}
+
 } // namespace
 
 std::optional<Chart> slip_over_friction(const Scene& scene, const Screening& s,
@@ -121,6 +147,7 @@ std::optional<Chart> slip_over_friction(const Scene& scene, const Screening& s,
     chart.note = "Worse polarity of each record, with the vertical component where it has one. Linear near zero, "
                  "logarithmic above.";
     if (s.flexible) chart.note += " The rigid block; the flexible one is judged by its own slip.";
+    chart.note += by_the_block(s);
     if (scene.wedge) chart.note += " The friction of the other plane keeps its share of this one.";
     return chart;
 }
@@ -131,8 +158,10 @@ Chart slip_by_record(const Screening& s, const std::optional<double>& allowable)
     chart.title = "Largest slip of each record";
     chart.x.label = "record";
     chart.y = slip_axis();
-    Curve h{"horizontal", {}, {}, {}, {}, Mark::points, Weight::normal, 0};
-    Curve hv{"with vertical", {}, {}, {}, {}, Mark::points, Weight::normal, 1};
+    const bool both = s.elastic && !s.elastic->runs.empty();
+    const std::string block = both ? "rigid block, " : "";
+    Curve h{block + "horizontal", {}, {}, {}, {}, Mark::points, Weight::normal, 0};
+    Curve hv{block + "with vertical", {}, {}, {}, {}, Mark::points, Weight::normal, 1};
     for (std::size_t i = 0; 2 * i + 1 < s.slips.size(); ++i) {
         chart.x.categories.push_back(s.slips[2 * i].record);
         h.x.push_back(static_cast<double>(i));
@@ -145,8 +174,9 @@ Chart slip_by_record(const Screening& s, const std::optional<double>& allowable)
     if (std::any_of(hv.y.begin(), hv.y.end(), [](double v) { return std::isfinite(v); }))
         chart.curves.push_back(std::move(hv));
     if (s.flexible) chart.curves.push_back(governing_by_record(s));
+    if (both) chart.curves.push_back(elastic_by_record(s, chart.x.categories));
     if (allowable) chart.horizontal.push_back({*allowable / mm, "allowable"});
-    chart.note = "Worse polarity of each record.";
+    chart.note = "Worse polarity of each record." + (both ? "" : by_the_block(s));
     return chart;
 }
 
@@ -180,7 +210,7 @@ Chart slip_over_ratio(const Screening& s)
         }
     chart.curves.push_back(std::move(h));
     if (!hv.x.empty()) chart.curves.push_back(std::move(hv));
-    chart.note = "One point for each record, worse polarity.";
+    chart.note = "One point for each record, worse polarity." + by_the_block(s);
     return chart;
 }
 
