@@ -39,27 +39,19 @@ InterfaceFactor::InterfaceFactor(const SparseMatrix& of_nodes, int inner_nodes, 
     : inner_(inner_nodes), ties_(std::move(ties))
 {
     const SparseMatrix matrix = tied(of_nodes, ties_);
-    // The interface part may be singular; with a multiple of the identity added it is not, and taking it off again
-    // costs one rounding because it is of the size of the diagonal.
-    const Index n = matrix.rows(), inner = 2 * inner_, rest = n - inner, below = 2 * negative_nodes,
-                above = rest - below;
-    const double shift = matrix.diagonal().tail(above).mean(),
-                 shift_below = below > 0 ? matrix.diagonal().segment(inner, below).mean() : 0.0;
-    Eigen::VectorXd added = Eigen::VectorXd::Zero(n);
-    added.segment(inner, below).setConstant(shift_below);
-    added.tail(above).setConstant(shift);
-    const NodeLdlt ldlt = node_ldlt(matrix, added);
+    NodeLdlt ldlt = node_ldlt(matrix, inner_);
     if (!ldlt.exists) return;
     const Eigen::VectorXd& d = ldlt.diagonal;
-    if (!d.allFinite() || d.cwiseAbs().minCoeff() == 0.0 || !(d.tail(above).minCoeff() > 0.0)) return;
-    if (below > 0 && !(d.segment(inner, below).maxCoeff() < 0.0)) return;
-    if (negative >= 0 && (d.head(inner).array() < 0.0).count() != negative) return;
+    if (!d.allFinite() || (d.array() == 0.0).any() || (negative >= 0 && (d.array() < 0.0).count() != negative)) return;
+    schur_ = ldlt.schur(matrix);
+    const Index below = 2 * negative_nodes;
+    if ((schur_.diagonal().head(below).array() >= 0.0).any()) return;
+    if (!(schur_.diagonal().array().tail(schur_.rows() - below) > 0.0).all()) return;
     regular_ = true;
 
-    const int blocks = ldlt.begin[static_cast<std::size_t>(inner_)];
-    begin_.assign(ldlt.begin.begin(), ldlt.begin.begin() + inner_ + 1);
-    row_.assign(ldlt.row.begin(), ldlt.row.begin() + blocks);
-    block_.reserve(static_cast<std::size_t>(blocks));
+    begin_ = std::move(ldlt.begin);
+    row_ = std::move(ldlt.row);
+    block_.reserve(row_.size());
     pivot_.reserve(static_cast<std::size_t>(inner_));
     for (int j = 0; j < inner_; ++j) {
         const double l = ldlt.inside[j];
@@ -71,20 +63,6 @@ InterfaceFactor::InterfaceFactor(const SparseMatrix& of_nodes, int inner_nodes, 
         const double first = 1.0 / d[2 * j], second = 1.0 / d[2 * j + 1];
         pivot_.push_back({first + l * l * second, -l * second, second});
     }
-    Eigen::MatrixXd corner = Eigen::MatrixXd::Identity(rest, rest);
-    for (int j = inner_; j < n / 2; ++j) {
-        const Index at = 2 * (j - inner_);
-        corner(at + 1, at) = ldlt.inside[j];
-        for (int k = ldlt.begin[j]; k < ldlt.begin[j + 1]; ++k)
-            corner.block<2, 2>(2 * (ldlt.row[k] - inner_), at) = Eigen::Map<const Eigen::Matrix2d>(ldlt.block[k].v);
-    }
-    corner = (corner * d.tail(rest).cwiseAbs().cwiseSqrt().asDiagonal()).eval();
-    schur_.setZero(rest, rest);
-    schur_.selfadjointView<Eigen::Lower>().rankUpdate(corner.rightCols(above));
-    if (below > 0) schur_.selfadjointView<Eigen::Lower>().rankUpdate(corner.leftCols(below), -1.0);
-    schur_.diagonal().tail(above).array() -= shift;
-    schur_.diagonal().head(below).array() -= shift_below;
-    schur_.triangularView<Eigen::StrictlyUpper>() = schur_.transpose();
 }
 
 // Both unknowns of a node stand together, column after column. Each column sees the same operations in the same order

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <utility>
 
 namespace damslip::fe2d {
 
@@ -348,26 +349,26 @@ LowerRows lower_rows(const SparseMatrix& matrix)
     return rows;
 }
 
-/// Tree of elimination of the nodes and their blocks in L.
+/// Tree of elimination of the first nodes and their blocks in L.
 struct Pattern {
     std::vector<int> parent, begin;
 };
 
-Pattern pattern_of(const LowerRows& rows)
+Pattern pattern_of(const LowerRows& rows, int eliminated)
 {
-    const std::size_t nodes = rows.begin.size() - 1;
-    Pattern pattern{std::vector<int>(nodes, -1), std::vector<int>(nodes + 1, 0)};
+    const std::size_t nodes = rows.begin.size() - 1, columns = static_cast<std::size_t>(eliminated);
+    Pattern pattern{std::vector<int>(columns, -1), std::vector<int>(columns + 1, 0)};
     std::vector<int> seen(nodes, -1);
     for (int k = 0; k < static_cast<int>(nodes); ++k) {
         seen[k] = k;
         for (int p = rows.begin[k]; p < rows.begin[k + 1]; ++p)
-            for (int i = rows.column[p]; seen[i] != k; i = pattern.parent[i]) {
+            for (int i = rows.column[p]; i < eliminated && seen[i] != k; i = pattern.parent[i]) {
                 if (pattern.parent[i] < 0) pattern.parent[i] = k;
                 ++pattern.begin[i + 1];
                 seen[i] = k;
             }
     }
-    for (std::size_t k = 1; k <= nodes; ++k) pattern.begin[k] += pattern.begin[k - 1];
+    for (std::size_t k = 1; k <= columns; ++k) pattern.begin[k] += pattern.begin[k - 1];
     return pattern;
 }
 
@@ -399,53 +400,58 @@ DAMSLIP_AVX2 void take_off_avx2(const NodeLdlt::Block* block, const int* row, co
 }
 #endif
 
-NodeLdlt by_nodes(const LowerRows& rows, const VectorXd& added, [[maybe_unused]] VectorLevel level)
+NodeLdlt by_nodes(const LowerRows& rows, int eliminated, [[maybe_unused]] VectorLevel level)
 {
     auto* take = take_off;
 #if DAMSLIP_HAS_AVX2
     if (level == VectorLevel::avx2) take = take_off_avx2;
 #endif
     const int nodes = static_cast<int>(rows.begin.size()) - 1;
-    Pattern pattern = pattern_of(rows);
+    Pattern pattern = pattern_of(rows, eliminated);
     NodeLdlt f;
     f.row.resize(static_cast<std::size_t>(pattern.begin.back()));
     f.block.resize(f.row.size());
-    f.inside.resize(static_cast<std::size_t>(nodes));
-    f.diagonal.resize(2 * nodes);
+    f.inside.resize(static_cast<std::size_t>(eliminated));
+    f.diagonal.resize(2 * eliminated);
     double* const d = f.diagonal.data();
     std::vector<int> end = pattern.begin; // of what each column has so far
+    std::vector<int> above = end;         // the same, of the rows that are eliminated
     std::vector<int> path(static_cast<std::size_t>(nodes)), seen(static_cast<std::size_t>(nodes), -1);
     std::vector<Rows> left(static_cast<std::size_t>(nodes));
     for (int k = 0; k < nodes; ++k) {
+        const bool stays = k >= eliminated;
         int top = nodes; // columns of this row, each behind those it depends on, from here to the end of `path`
         seen[k] = k;
         const int last = rows.begin[k + 1] - 1; // the diagonal block
-        for (int p = rows.begin[k]; p < last; ++p) {
+        for (int p = rows.begin[k]; p < last && rows.column[p] < eliminated; ++p) {
             for (int c = 0; c < 4; ++c) left[rows.column[p]].v[c] += rows.block[p].v[c];
             int length = 0;
-            for (int i = rows.column[p]; seen[i] != k; i = pattern.parent[i]) {
+            for (int i = rows.column[p]; i < eliminated && seen[i] != k; i = pattern.parent[i]) {
                 path[length++] = i;
                 seen[i] = k;
             }
             while (length > 0) path[--top] = path[--length];
         }
         const double* const here = rows.block[last].v;
-        double d0 = here[0] + added[2 * k], e = here[2], d1 = here[3] + added[2 * k + 1];
+        double d0 = here[0], e = here[2], d1 = here[3];
         for (; top < nodes; ++top) {
             const int j = path[top], from = pattern.begin[j], to = end[j]++;
             Rows y = left[j];
             left[j] = {};
             y.v[1] -= f.inside[j] * y.v[0];
             y.v[3] -= f.inside[j] * y.v[2];
-            take(f.block.data() + from, f.row.data() + from, f.row.data() + to, y, left.data());
+            take(f.block.data() + from, f.row.data() + from, f.row.data() + (stays ? above[j] : to), y, left.data());
             const double l00 = y.v[0] / d[2 * j], l01 = y.v[1] / d[2 * j + 1], l10 = y.v[2] / d[2 * j],
                          l11 = y.v[3] / d[2 * j + 1];
+            f.row[to] = k;
+            f.block[to] = {{l00, l10, l01, l11}};
+            if (stays) continue;
+            above[j] = end[j];
             d0 = (d0 - l00 * y.v[0]) - l01 * y.v[1];
             e = (e - l00 * y.v[2]) - l01 * y.v[3];
             d1 = (d1 - l10 * y.v[2]) - l11 * y.v[3];
-            f.row[to] = k;
-            f.block[to] = {{l00, l10, l01, l11}};
         }
+        if (stays) continue;
         const double l = e / d0;
         d1 -= l * e;
         f.inside[k] = l;
@@ -458,21 +464,20 @@ NodeLdlt by_nodes(const LowerRows& rows, const VectorXd& added, [[maybe_unused]]
     return f;
 }
 
-/// Unknown by unknown.
-NodeLdlt by_unknowns(const SparseMatrix& matrix, const VectorXd& added)
+/// Unknown by unknown, all of them: the other pivots, doubled so that none is zero, are not used.
+NodeLdlt by_unknowns(const SparseMatrix& matrix, int eliminated)
 {
     SparseMatrix shifted = matrix;
-    for (Index k = 0; k < added.size(); ++k)
-        if (added[k] != 0.0) shifted.coeffRef(k, k) += added[k];
+    for (Index k = 2 * eliminated; k < matrix.rows(); ++k) shifted.coeffRef(k, k) *= 2.0;
     const Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> ldlt(shifted);
     NodeLdlt f;
     if (ldlt.info() != Eigen::Success) return f;
     f.exists = true;
-    f.diagonal = ldlt.vectorD();
+    f.diagonal = ldlt.vectorD().head(2 * eliminated);
     const auto& lower = ldlt.matrixL().nestedExpression(); // CSC without the unit diagonal, rows ascending
     const Index n = matrix.rows();
     f.begin.assign(1, 0);
-    for (int j = 0; j < n / 2; ++j) {
+    for (int j = 0; j < eliminated; ++j) {
         SparseMatrix::InnerIterator a(lower, 2 * j), b(lower, 2 * j + 1);
         while (a && a.row() <= 2 * j) ++a;
         f.inside.push_back(a && a.row() == 2 * j + 1 ? a.value() : 0.0);
@@ -514,9 +519,45 @@ bool in_node_blocks(const SparseMatrix& matrix)
     return true;
 }
 
-NodeLdlt node_ldlt(const SparseMatrix& matrix, const VectorXd& added, VectorLevel level)
+NodeLdlt node_ldlt(const SparseMatrix& matrix, int eliminated, VectorLevel level)
 {
-    return in_node_blocks(matrix) ? by_nodes(lower_rows(matrix), added, level) : by_unknowns(matrix, added);
+    return in_node_blocks(matrix) ? by_nodes(lower_rows(matrix), eliminated, level) : by_unknowns(matrix, eliminated);
+}
+
+Eigen::MatrixXd NodeLdlt::schur(const SparseMatrix& matrix) const
+{
+    constexpr int together = 32; // columns of nodes whose rows are mostly the same
+    const int eliminated = static_cast<int>(begin.size()) - 1;
+    const Index first = 2 * eliminated, rest = matrix.rows() - first;
+    Eigen::MatrixXd schur = matrix.bottomRightCorner(rest, rest);
+    std::vector<int> place(static_cast<std::size_t>(rest / 2), -1), nodes;
+    Eigen::MatrixXd l, product;
+    for (int j = 0; j < eliminated; j += together) {
+        const int last = std::min(eliminated, j + together);
+        nodes.clear();
+        for (int k = begin[j]; k < begin[last]; ++k)
+            if (const int node = row[k] - eliminated; node >= 0 && std::exchange(place[node], 0) < 0) nodes.push_back(node);
+        std::sort(nodes.begin(), nodes.end());
+        for (std::size_t i = 0; i < nodes.size(); ++i) place[nodes[i]] = static_cast<int>(i);
+        l.setZero(2 * static_cast<Index>(nodes.size()), 2 * (last - j));
+        for (int column = j; column < last; ++column)
+            for (int k = begin[column]; k < begin[column + 1]; ++k)
+                if (row[k] >= eliminated)
+                    l.block<2, 2>(2 * place[row[k] - eliminated], 2 * (column - j)) =
+                        Eigen::Map<const Eigen::Matrix2d>(block[k].v);
+        product.resize(l.rows(), l.rows());
+        product.triangularView<Eigen::Lower>() = (l * diagonal.segment(2 * j, l.cols()).asDiagonal()).eval() * l.transpose();
+        for (std::size_t b = 0; b < nodes.size(); ++b)
+            for (const Index y : {0, 1})
+                for (std::size_t a = b; a < nodes.size(); ++a)
+                    for (const Index x : {0, 1})
+                        if (2 * static_cast<Index>(a) + x >= 2 * static_cast<Index>(b) + y)
+                            schur(2 * nodes[a] + x, 2 * nodes[b] + y) -=
+                                product(2 * static_cast<Index>(a) + x, 2 * static_cast<Index>(b) + y);
+        for (const int node : nodes) place[node] = -1;
+    }
+    schur.triangularView<Eigen::StrictlyUpper>() = schur.transpose();
+    return schur;
 }
 
 } // namespace damslip::fe2d

@@ -83,8 +83,8 @@ private:
     std::vector<int> full_begin_;  ///< where the row of a node begins in full_mass_; -1: it stands in mass_
 };
 
-/// L D Lᵀ of a symmetric matrix in the order given, without pivoting: row by row of L (Davis 2005, ACM TOMS 31, 587-591), both
-/// unknowns of a node at a time. Every number is computed by the operations of Eigen::SimplicialLDLT in its order, so it has
+/// Columns of L D Lᵀ of a symmetric matrix in the order given, without pivoting: row by row of L (Davis 2005, ACM TOMS 31, 587-591),
+/// both unknowns of a node at a time. Every number is computed by the operations of Eigen::SimplicialLDLT in its order, so it has
 /// the same bits, on every vector level. A matrix whose pattern is not made of full 2 x 2 blocks goes through Eigen's class.
 struct NodeLdlt {
     /// L(2i, 2j), L(2i+1, 2j), L(2i, 2j+1), L(2i+1, 2j+1)
@@ -97,10 +97,14 @@ struct NodeLdlt {
     std::vector<Block> block;
     std::vector<double> inside; ///< L(2j+1, 2j)
     Eigen::VectorXd diagonal;   ///< D
+
+    /// What elimination leaves of the other nodes: A_cc - L_c D L_cᵀ. @param matrix  that was factorised
+    Eigen::MatrixXd schur(const SparseMatrix& matrix) const;
 };
 
-/// @param matrix  both triangles, of which the lower one is read @param added  to its diagonal
-NodeLdlt node_ldlt(const SparseMatrix& matrix, const Eigen::VectorXd& added, VectorLevel level = vector_level());
+/// @param matrix  both triangles, of which the lower one is read
+/// @param eliminated  nodes whose columns are computed, the first ones; the rest of the matrix may be singular
+NodeLdlt node_ldlt(const SparseMatrix& matrix, int eliminated, VectorLevel level = vector_level());
 
 /// Is the pattern made of full 2 x 2 blocks, those on the diagonal among them? Unknowns that stand alone, with a number on the
 /// diagonal only, are left out of it: they are held.

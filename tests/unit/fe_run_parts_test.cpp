@@ -79,22 +79,28 @@ SparseMatrix with_held(const SparseMatrix& matrix, const std::vector<Index>& hel
     return result;
 }
 
-/// Each number of L and D, without any tolerance.
-void expect_bits_of_eigen(const SparseMatrix& matrix, const VectorXd& added, VectorLevel level)
+/// Each number of L and D, without any tolerance; what is left of the rest against dense algebra.
+void expect_bits_of_eigen(const SparseMatrix& matrix, int eliminated, VectorLevel level)
 {
-    const NodeLdlt f = node_ldlt(matrix, added, level);
+    const NodeLdlt f = node_ldlt(matrix, eliminated, level);
     ASSERT_TRUE(f.exists);
-    SparseMatrix shifted = matrix;
-    for (Index k = 0; k < added.size(); ++k) shifted.coeffRef(k, k) += added[k];
-    const Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> eigen(shifted);
-    EXPECT_TRUE(f.diagonal == VectorXd(eigen.vectorD()));
-    MatrixXd lower = MatrixXd::Identity(matrix.rows(), matrix.cols());
-    for (int j = 0; j < matrix.cols() / 2; ++j) {
+    const Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> eigen(matrix);
+    const Index columns = 2 * eliminated, rest = matrix.cols() - columns;
+    EXPECT_TRUE(f.diagonal == VectorXd(eigen.vectorD()).head(columns));
+    MatrixXd lower = MatrixXd::Identity(matrix.rows(), columns);
+    for (int j = 0; j < eliminated; ++j) {
         lower(2 * j + 1, 2 * j) = f.inside[j];
         for (int k = f.begin[j]; k < f.begin[j + 1]; ++k)
             lower.block<2, 2>(2 * f.row[k], 2 * j) = Eigen::Map<const Eigen::Matrix2d>(f.block[k].v);
     }
-    EXPECT_TRUE(lower == MatrixXd(SparseMatrix(eigen.matrixL())));
+    EXPECT_TRUE(lower == MatrixXd(SparseMatrix(eigen.matrixL())).leftCols(columns));
+    if (rest == 0) return;
+    const MatrixXd dense = matrix, schur = f.schur(matrix),
+                   exact = dense.bottomRightCorner(rest, rest) -
+                           dense.bottomLeftCorner(rest, columns) *
+                               dense.topLeftCorner(columns, columns).ldlt().solve(dense.topRightCorner(columns, rest));
+    EXPECT_LT((schur - exact).norm(), 1e-12 * exact.norm());
+    EXPECT_TRUE(schur == schur.transpose());
 }
 
 TEST(FeRunParts, factor_by_nodes_has_the_bits_of_the_factor_by_unknowns)
@@ -109,19 +115,21 @@ TEST(FeRunParts, factor_by_nodes_has_the_bits_of_the_factor_by_unknowns)
     EXPECT_TRUE(in_node_blocks(dam));
     EXPECT_TRUE(in_node_blocks(held));
     EXPECT_FALSE(in_node_blocks(odd));
-    VectorXd added = VectorXd::Zero(dam.rows());
-    added.tail(12).setConstant(0.7 * dam.diagonal().mean());
+    const int nodes = static_cast<int>(dam.rows()) / 2;
     for (const SparseMatrix& matrix : {dam, held, odd})
-        for (const VectorLevel level : {VectorLevel::sse2, vector_level()}) expect_bits_of_eigen(matrix, added, level);
+        for (const int eliminated : {nodes, nodes - 6, nodes / 2})
+            for (const VectorLevel level : {VectorLevel::sse2, vector_level()})
+                expect_bits_of_eigen(matrix, eliminated, level);
 }
 
 TEST(FeRunParts, factor_by_nodes_refuses_a_zero_pivot)
 {
-    SparseMatrix zero(4, 4);
-    zero = MatrixXd::Ones(4, 4).sparseView();
-    ASSERT_TRUE(in_node_blocks(zero));
-    EXPECT_FALSE(node_ldlt(zero, VectorXd::Zero(4)).exists);
-    EXPECT_TRUE(node_ldlt(zero, VectorXd::Ones(4)).exists);
+    SparseMatrix matrix(4, 4);
+    matrix = MatrixXd::Ones(4, 4).sparseView();
+    ASSERT_TRUE(in_node_blocks(matrix));
+    EXPECT_FALSE(node_ldlt(matrix, 2).exists);
+    matrix = MatrixXd(MatrixXd::Ones(4, 4) + MatrixXd::Identity(4, 4)).sparseView();
+    EXPECT_TRUE(node_ldlt(matrix, 2).exists);
 }
 
 // By four numbers at a time as by two, and as Eigen does it of two columns or more.
