@@ -44,9 +44,11 @@ InterfaceFactor::InterfaceFactor(const SparseMatrix& of_nodes, int inner_nodes, 
     const Eigen::VectorXd& d = ldlt.diagonal;
     if (!d.allFinite() || (d.array() == 0.0).any() || (negative >= 0 && (d.array() < 0.0).count() != negative)) return;
     schur_ = ldlt.schur(matrix);
-    const Index below = 2 * negative_nodes;
-    if ((schur_.diagonal().head(below).array() >= 0.0).any()) return;
-    if (!(schur_.diagonal().array().tail(schur_.rows() - below) > 0.0).all()) return;
+    // Of one sign each, or round-off of what nothing holds.
+    constexpr double round_off = 1e-9;
+    const Index below = 2 * negative_nodes, above = schur_.rows() - below;
+    const Eigen::ArrayXd left = schur_.diagonal().array() / matrix.diagonal().tail(below + above).array().abs();
+    if ((left.head(below) > round_off).any() || !(left.tail(above) > -round_off).all()) return;
     regular_ = true;
 
     begin_ = std::move(ldlt.begin);
