@@ -194,16 +194,16 @@ void end_blas_threads()
 }
 
 /// Memory that is given back is kept by the program: a run takes and returns the same matrices again and again, and the system would
-/// clear their pages each time, a twentieth of a finite-element run. Blocks of 32 MiB and more still go back at once.
+/// clear their pages each time, a twentieth of a finite-element run. Blocks of 256 MiB and more still go back at once.
 /// The first of it lies in large pages where the system has them: a first touch costs as much for 2 MiB as for 4 KiB.
 /// No memory is taken by that before it is used. Where memory is limited (ulimit -v) it would count, and small pages remain.
 void keep_memory()
 {
 #ifdef __GLIBC__
-    constexpr std::size_t first = 256 << 20, large_page = 2 << 20;
+    constexpr std::size_t first = 1 << 30, large_page = 2 << 20;
     constexpr int usual_blocks_of_their_own = 65536; // glibc's M_MMAP_MAX
-    ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
-    ::mallopt(M_TRIM_THRESHOLD, 2 * first);
+    ::mallopt(M_MMAP_THRESHOLD, 256 << 20);
+    ::mallopt(M_TRIM_THRESHOLD, INT_MAX); // more than `first`
     rlimit memory{};
     if (::getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur != RLIM_INFINITY) return;
     ::mallopt(M_MMAP_MAX, 0); // this block is of the heap itself
