@@ -9,6 +9,7 @@
 #include <cassert>
 #include <cholmod.h>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <stdexcept>
 
@@ -170,7 +171,6 @@ bool FrequencySolver::Implementation::Factor::factorise()
     std::vector<MatrixXcd> left(fronts.size()); ///< of each front on its other rows, lower triangle
     std::vector<std::vector<int>> children(fronts.size());
     std::vector<int> local(of_.elimination.new_of.size());
-    MatrixXcd panel;
     for (std::size_t f = 0; f < fronts.size(); ++f) {
         const Front& front = fronts[f];
         const int size = front.size(), columns = front.columns, rest = size - columns;
@@ -261,14 +261,12 @@ MatrixXcd FrequencySolver::Implementation::Factor::solve(At at, const MatrixXd& 
             of_.stiffness.valuePtr()[k] + place * of_.damping.valuePtr()[k] + square * of_.mass.valuePtr()[k];
     if (!factorise()) throw std::runtime_error(of_.body + " is singular at a frequency");
     const MatrixXcd b = loads.cast<Complex>();
+    const Eigen::ArrayXXd size = b.colwise().norm().array().max(std::numeric_limits<double>::min());
     MatrixXcd x = b;
     solve_in_place(x);
     for (int k = 0;; ++k) {
         MatrixXcd rest = b - matrix_ * x;
-        double worst = 0.0;
-        for (Index column = 0; column < b.cols(); ++column)
-            if (const double size = b.col(column).norm(); size > 0.0)
-                worst = std::max(worst, rest.col(column).norm() / size);
+        const double worst = (rest.colwise().norm().array() / size).maxCoeff<Eigen::PropagateNaN>();
         if (worst <= good_residual) return x;
         if (k == most_refinements) {
             if (worst < allowed_residual) return x;

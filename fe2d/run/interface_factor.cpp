@@ -1,6 +1,7 @@
 #include "fe2d/run/interface_factor.hpp"
 
 #include "fe2d/run/node_products.hpp"
+#include "fe2d/solver/dense_product.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -44,11 +45,15 @@ InterfaceFactor::InterfaceFactor(const SparseMatrix& of_nodes, int inner_nodes, 
     const Eigen::VectorXd& d = ldlt.diagonal;
     if (!d.allFinite() || (d.array() == 0.0).any() || (negative >= 0 && (d.array() < 0.0).count() != negative)) return;
     schur_ = ldlt.schur(matrix);
-    // Of one sign each, or round-off of what nothing holds.
-    constexpr double round_off = 1e-9;
+    // Of one sign each; what nothing holds is none, up to round-off, so a multiple of the identity is added for the check.
     const Index below = 2 * negative_nodes, above = schur_.rows() - below;
-    const Eigen::ArrayXd left = schur_.diagonal().array() / matrix.diagonal().tail(below + above).array().abs();
-    if ((left.head(below) > round_off).any() || !(left.tail(above) > -round_off).all()) return;
+    const auto definite = [](Eigen::MatrixXd part, double shift) {
+        part.diagonal().array() += shift;
+        return part.rows() == 0 || Eigen::LLT<Eigen::MatrixXd>(part).info() == Eigen::Success;
+    };
+    const auto mean = [&](Index first, Index count) { return matrix.diagonal().segment(first, count).mean(); };
+    if (below > 0 && !definite(-schur_.topLeftCorner(below, below), -mean(2 * inner_, below))) return;
+    if (!definite(schur_.bottomRightCorner(above, above), mean(matrix.rows() - above, above))) return;
     regular_ = true;
 
     begin_ = std::move(ldlt.begin);

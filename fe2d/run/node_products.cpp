@@ -547,13 +547,9 @@ Eigen::MatrixXd NodeLdlt::schur(const SparseMatrix& matrix) const
                         Eigen::Map<const Eigen::Matrix2d>(block[k].v);
         product.resize(l.rows(), l.rows());
         product.triangularView<Eigen::Lower>() = (l * diagonal.segment(2 * j, l.cols()).asDiagonal()).eval() * l.transpose();
-        for (std::size_t b = 0; b < nodes.size(); ++b)
-            for (const Index y : {0, 1})
-                for (std::size_t a = b; a < nodes.size(); ++a)
-                    for (const Index x : {0, 1})
-                        if (2 * static_cast<Index>(a) + x >= 2 * static_cast<Index>(b) + y)
-                            schur(2 * nodes[a] + x, 2 * nodes[b] + y) -=
-                                product(2 * static_cast<Index>(a) + x, 2 * static_cast<Index>(b) + y);
+        const auto unknown = [&nodes](Index k) { return 2 * nodes[static_cast<std::size_t>(k / 2)] + k % 2; };
+        for (Index b = 0; b < product.cols(); ++b)
+            for (Index a = b; a < product.rows(); ++a) schur(unknown(a), unknown(b)) -= product(a, b);
         for (const int node : nodes) place[node] = -1;
     }
     schur.triangularView<Eigen::StrictlyUpper>() = schur.transpose();

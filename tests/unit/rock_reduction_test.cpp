@@ -4,6 +4,8 @@
 #include "rock_scenes.hpp"
 
 #include <gtest/gtest.h>
+#include <limits>
+#include <stdexcept>
 
 namespace damslip::rock_tests {
 
@@ -43,6 +45,16 @@ MatrixXd identity(const WaveBox& box)
 }
 
 } // namespace
+
+TEST(FrequencySolver, RefusesWhatHasNoResidual)
+{
+    const WaveBox box = make_wave_box(small_box());
+    const FrequencySolver solver(box.mass, box.damping, box.stiffness, "the box");
+    MatrixXd loads = on_box(box, identity(box));
+    EXPECT_NO_THROW(solver.solve({1.0}, loads));
+    loads(0, 1) = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(solver.solve({1.0}, loads), std::runtime_error);
+}
 
 TEST(ReducedRock, IsPassive)
 {
