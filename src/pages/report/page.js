@@ -306,7 +306,10 @@
             splits: names.length ? () => names.map((_, i) => i) : ticks(chart.xaxis, "x"),
             values: names.length ? () => short_names : labels(chart.xaxis),
         };
+        let overhang = 0; // of tilted names left of the plot
         if (tilted) {
+            const across = (width - 90) / names.length, cosine = Math.cos(40 * Math.PI / 180);
+            overhang = Math.max(...short_names.map((s, i) => cosine * text_width(s) - (i + 0.5) * across));
             x_axis.rotate = 40;
             x_axis.size = Math.min(190, 18 + longest * 7 * 0.66);
         }
@@ -316,7 +319,7 @@
             stroke: ink, font, labelFont: along + "px system-ui, sans-serif", grid, ticks: grid, filter: (u, splits) => splits,
             label: with_unit(chart.yaxis), labelSize: 22,
             splits: ticks(chart.yaxis, "y"), values: labels(chart.yaxis),
-            size: (u, values) => 16 + 7.2 * Math.max(5, ...(values ?? []).map(s => s.length)),
+            size: (u, values) => Math.max(overhang - 22, 16 + 7.2 * Math.max(5, ...(values ?? []).map(s => s.length))),
         };
         if (text_width(with_unit(chart.yaxis)) * along > 12 * (height - 56)) crowded.add(chart.title + ": " + chart.yaxis.label);
         const x = data[0], span = x[x.length - 1] - x[0], scatter = chart.curves.every(c => c.mark === "points"); // points at the ends are whole
