@@ -309,7 +309,7 @@
         let overhang = 0; // of tilted names left of the plot
         if (tilted) {
             const across = (width - 90) / names.length, cosine = Math.cos(40 * Math.PI / 180);
-            overhang = Math.max(...short_names.map((s, i) => cosine * text_width(s) - (i + 0.5) * across));
+            overhang = Math.max(...short_names.map((s, i) => cosine * text_width(s) + 12 - (i + 0.5) * across));
             x_axis.rotate = 40;
             x_axis.size = Math.min(190, 18 + longest * 7 * 0.66);
         }
