@@ -45,9 +45,13 @@ double worst(std::vector<double> errors)
 /// A dam that nothing has loaded yet.
 EarthquakeRun::BatchedRun EarthquakeRun::batched_run(const Contact& contact) const
 {
-    BatchedRun batched{Strength(contact, joints_of(scene_), structure_->planes(),
-                       scene_.seam_body ? scene_.seam_body->strengths : std::vector<Contact>{}),
-              ContactMemory(structure_->pairs())};
+    std::vector<Contact> segments;
+    if (scene_.seam_body) {
+        segments = scene_.seam_body->strengths;
+        std::fill_n(segments.begin(), scene_.seam_body->of_seam, contact);
+    }
+    BatchedRun batched{Strength(contact, joints_of(scene_), structure_->planes(), segments),
+                       ContactMemory(structure_->pairs())};
     batched.memory.laws = joint_laws(scene_, contact, structure_->planes());
     if (auto water = base_water(scene_, structure_->plane(), options_.uplift, options_.cracked_uplift,
                                 options_.drain_loss))

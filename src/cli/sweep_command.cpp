@@ -412,7 +412,10 @@ int sweep(const SweepArguments& arguments, const Streams& streams)
     if (std::any_of(axes.method.begin(), axes.method.end(),
                     [](const SweepMethod& method) { return method.kind == SweepKind::finite_elements; }))
         say_base(scene, streams);
-    const std::vector<Diagnostic> left_out = not_honoured(scene, methods_of(axes.method));
+    Scene asked = scene;
+    for (const std::string& plane : axes.plane)
+        if (!plane.empty()) asked.planes.slides_on = plane;
+    const std::vector<Diagnostic> left_out = not_honoured(asked, methods_of(axes.method));
     say(left_out, false, streams);
     for (const auto* notes : {&axes.notes, &left_out})
         scene.notes.insert(scene.notes.end(), notes->begin(), notes->end());

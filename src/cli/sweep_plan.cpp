@@ -119,8 +119,8 @@ void sweep_flags(CLI::App& sub, SweepArguments& a)
     list("--friction", a.friction, "Coulomb mu: 1.00,0.84,0.77 or first:last:step 0.65:1.0:0.05");
     list("--friction-deg", a.friction_deg, "friction angles instead [deg]");
     list("--plane", a.plane,
-         "what the rigid block slides on: base, seams by name, lifts such as \"lift at 30 m\"; each has its own friction "
-         "unless --friction gives one for all");
+         "what the dam slides on: base, seams by name, of rigid blocks lifts such as \"lift at 30 m\", too; each has its own "
+         "friction unless --friction gives one for all");
     list("--level", a.level, "water levels above the heel, at size 1 [m]");
     list("--uplift", a.uplift, uplift_words());
     list("--opening-water", a.opening_water,

@@ -261,7 +261,7 @@ const std::array left_out{
     LeftOut{finite_elements, "[lifts]", [](const Scene& s) { return s.lifts.has_value(); },
             "their dam is tied there; `fe` and `assess` let them slide"},
     LeftOut{finite_elements, "[[seam]]", [](const Scene& s) { return !s.seams.empty() && s.planes.slides_on.empty(); },
-            "they slide on the base; `fe --plane NAME`, `screen` and `sweep --plane` follow the seam"},
+            "they slide on the base; `fe --plane NAME`, `sweep --plane NAME` and `screen` follow the seam"},
     LeftOut{regressions, "[[seam]]", [](const Scene& s) { return !s.seams.empty(); }, nullptr},
     LeftOut{finite_elements, "uplift.crack",
             [](const Scene& s) {

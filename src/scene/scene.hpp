@@ -292,6 +292,7 @@ struct SeamBody {
     std::string name;
     Polyline path;                   ///< the seam, then the plane of its wedge; from upstream to downstream [m]
     std::vector<Contact> strengths;  ///< of each segment
+    std::size_t of_seam = 1;         ///< segments of the seam itself, the first ones
     std::vector<Point> water;        ///< x = along the path [m], y = pressure on it [Pa]; empty: none
     std::vector<LiftJoint> interfaces; ///< the joint of the base, then one of each bend
     /// Water in the faces is hydrostatic below these levels [m]: the crack above the first point, the interfaces, the free end.

@@ -303,6 +303,12 @@ Contact* strength_of_plane(Scene& scene)
     return scene.lifts ? &scene.lifts->strength : nullptr;
 }
 
+void set_friction(Contact& strength, double friction)
+{
+    strength.friction = friction;
+    if (strength.residual_friction) strength.residual_friction = std::min(*strength.residual_friction, friction);
+}
+
 } // namespace
 
 void set_friction(Scene& scene, double friction)
@@ -313,8 +319,9 @@ void set_friction(Scene& scene, double friction)
                                      "friction_table_m.",
                                      scene.planes.slides_on),
                          "one of them", "take friction_table_m out of the scene to vary the friction");
-        strength->friction = friction;
-        if (strength->residual_friction) strength->residual_friction = std::min(*strength->residual_friction, friction);
+        set_friction(*strength, friction);
+        for (std::size_t i = 0; scene.seam_body && i < scene.seam_body->of_seam; ++i)
+            set_friction(scene.seam_body->strengths[i], friction);
         return;
     }
     if (!scene.contact.friction_table.empty())
@@ -326,9 +333,7 @@ void set_friction(Scene& scene, double friction)
         planes.back().friction = old > 0.0 ? planes.back().friction * (friction / old) : friction;
         planes.front().friction = friction;
     }
-    scene.contact.friction = friction;
-    if (scene.contact.residual_friction)
-        scene.contact.residual_friction = std::min(*scene.contact.residual_friction, friction);
+    set_friction(scene.contact, friction);
 }
 
 Scene with_friction(Scene scene, double friction)

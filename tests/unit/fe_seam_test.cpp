@@ -1,8 +1,11 @@
 // A dam on a weak seam by finite elements, against the chain of rigid blocks: forces at the limit, factor, slip.
 #include "analysis/prepare/ready.hpp"
+#include "analysis/sweep/fe_sweep.hpp"
+#include "analysis/sweep/sweep_run.hpp"
 #include "core/input_error.hpp"
 #include "core/watch.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
+#include "scene/scene_text.hpp"
 #include "sliding/planes/seam.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 #include "verification/exact/reference_scene.hpp"
@@ -346,6 +349,52 @@ TEST(FeSeam, SaysWhatFiniteElementsDoNotFollow)
     scene = elastic_seam(1.0);
     scene.mesh.element = ElementKind::q8;
     EXPECT_NE(message(scene).find("quadratic"), std::string::npos);
+}
+
+/// A row of a sweep on a seam is the run of the scene with that friction and no other; the base in the same sweep is a scene without
+/// `--plane`.
+TEST(FeSeam, RowsOfASweepAreTheRunsOfTheirScenes)
+{
+    Scene scene = elastic_seam(1.0);
+    scene.planes.slides_on.clear();
+    const GroundMotion shaken = sines(4.0, 2.0, 1.0);
+    RecordPair pair;
+    pair.files.name = "sines";
+    pair.horizontal.dt = shaken.dt;
+    pair.horizontal.accel = shaken.accel_h;
+    Axes axes = axes_of(scene);
+    axes.polarity = {1};
+    axes.plane = {"", "D"};
+    axes.friction = {0.5, 0.6};
+    axes.method = {sweep_method("fe")};
+    Sweep sweep{scene, axes, {}, std::make_shared<const std::vector<RecordPair>>(1, pair)};
+    sweep.tasks = make_tasks(axes, 1);
+    Watch nobody;
+    check_fe_scenes(sweep);
+    const SweepOutcome outcome = run_sweep(sweep, nobody);
+    ASSERT_EQ(outcome.rows.size(), 4u);
+    std::vector<double> slips;
+    for (const FinishedRow& row : outcome.rows) {
+        const GridIndex at = sweep.tasks.index(row.id);
+        Scene here = scene;
+        here.planes.slides_on = axes.plane[at.plane];
+        set_friction(here, axes.friction[at.friction]);
+        const RunResult run = run_of(here, ground_motion(scene, pair, 1.0, 1));
+        ASSERT_EQ(run.status, Status::at_rest);
+        EXPECT_EQ(row.results.slip, run.slip);
+        slips.push_back(run.slip);
+    }
+    std::sort(slips.begin(), slips.end());
+    EXPECT_EQ(std::adjacent_find(slips.begin(), slips.end()), slips.end()); // four different answers
+
+    axes.friction = {scene.contact.friction};
+    axes.plane_friction = {scene.contact.friction, 0.55};
+    sweep = Sweep{scene, axes, make_tasks(axes, 1), sweep.records};
+    const SweepOutcome own = run_sweep(sweep, nobody);
+    Scene here = scene;
+    here.planes.slides_on = "D";
+    set_friction(here, 0.55);
+    EXPECT_EQ(own.rows.back().results.slip, run_of(here, ground_motion(scene, pair, 1.0, 1)).slip);
 }
 
 /// Its rock moves in blocks of its own: the modes of the dam are not enough, nor do they correct its steps.

@@ -164,10 +164,10 @@ SeamBody body_of(const Scene& scene, const Seam& seam, std::optional<double> ang
     SeamBody body;
     body.name = seam.name;
     body.path = model.path;
-    const std::size_t of_seam = seam_path(scene, seam).size() - 1;
+    body.of_seam = seam_path(scene, seam).size() - 1;
     for (std::size_t i = 0; i + 1 < body.path.size(); ++i)
-        body.strengths.push_back(i < of_seam ? strength_of(scene.contact, seam.strength)
-                                             : strength_of(scene.contact, seam.wedge->friction, seam.wedge->cohesion));
+        body.strengths.push_back(i < body.of_seam ? strength_of(scene.contact, seam.strength)
+                                                  : strength_of(scene.contact, seam.wedge->friction, seam.wedge->cohesion));
     for (const ProfilePoint& p : model.pressure.points) body.water.push_back({p.distance, p.pressure});
     LiftJoint& base = body.interfaces.emplace_back();
     base.name = "base";

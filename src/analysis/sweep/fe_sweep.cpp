@@ -3,6 +3,7 @@
 #include "analysis/fe/contact_run.hpp"
 #include "analysis/fe/contact_runs.hpp"
 #include "analysis/prepare/reducible.hpp"
+#include "analysis/prepare/seam_body.hpp"
 #include "analysis/sweep/sweep_grid.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
@@ -11,6 +12,7 @@
 #include "core/version.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "scene/joint_bond.hpp"
+#include "scene/planes.hpp"
 #include "scene/scene_text.hpp"
 #include "scene/write.hpp"
 
@@ -188,9 +190,9 @@ private:
 
     Contact contact(const PreparedModel& model, std::size_t id) const
     {
-        const double friction = in_.axes.friction[in_.tasks.index(id).friction];
-        return friction == model.scene.contact.friction ? model.scene.contact
-                                                        : with_friction(model.scene, friction).contact;
+        const double friction = friction_of(in_.axes, in_.tasks.index(id));
+        const Contact& own = base_strength(model.scene);
+        return friction == own.friction ? own : base_strength(with_friction(model.scene, friction));
     }
 
     void run_full(const PreparedModel& model, const std::vector<const FeGroup*>& together, FeSweepCounts& counts)
@@ -249,7 +251,7 @@ void check_fe_scenes(const Sweep& in)
             if (in.axes.method[method].kind != SweepKind::finite_elements) continue;
             GridIndex at = in.tasks.index(variant * in.tasks.motions() * in.tasks.method);
             at.method = method;
-            const Scene scene = scene_of(in, at);
+            const Scene scene = with_seam_body(scene_of(in, at));
             const EffectPlan plan = make_effect_plan(scene, Method::finite_elements);
             if (in.axes.method[method].reduced) check_reducible(called_for(plan, scene));
         }

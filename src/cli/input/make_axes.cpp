@@ -240,7 +240,25 @@ void add_mode_axes(const SweepArguments& a, const Scene& scene, Axes& axes)
         axes.damping = checked_numbers(a.damping, "--damping", 0, 0, 0.5, "damping ratio, 0 ... 0.5");
 }
 
-/// What the rigid block slides on. Each plane keeps its own friction unless --friction gives one for all.
+/// What a method slides on beside the base: rigid blocks on every plane, finite elements of the whole dam on seams.
+void check_planes_of(const SweepMethod& m, const std::vector<std::string>& planes, const Scene& scene)
+{
+    if (m.kind == SweepKind::rigid || m.kind == SweepKind::rigid_vertical) return;
+    if (m.kind != SweepKind::finite_elements || m.reduced)
+        refuse_usage(fmt::format("--plane with --method {}.", m.id),
+                     "on planes beside the base: rigid, rigid-v; on seams fe and its laws, too",
+                     "write  --method rigid,rigid-v");
+    const auto is_seam = [&](const std::string& plane) {
+        return std::any_of(scene.seams.begin(), scene.seams.end(), [&](const Seam& s) { return s.name == plane; });
+    };
+    for (const std::string& plane : planes)
+        if (plane != base_plane && !is_seam(plane))
+            refuse_usage(fmt::format("--plane \"{}\" with --method {}.", plane, m.id),
+                         "base and seams; lifts wake beside the base in  damslip fe  and  damslip assess",
+                         fmt::format("take \"{}\" out, or write  --method rigid,rigid-v", plane));
+}
+
+/// What the dam slides on. Each plane keeps its own friction unless --friction gives one for all.
 void add_plane_axis(const SweepArguments& a, const Scene& scene, Axes& axes)
 {
     if (a.plane.empty()) return;
@@ -250,11 +268,8 @@ void add_plane_axis(const SweepArguments& a, const Scene& scene, Axes& axes)
             refuse_usage(fmt::format("--plane with {}.", flag),
                          "--friction, --level, --reservoir, --scale, --polarity: water and size of a plane are its keys",
                          fmt::format("delete {}", flag));
-    for (const SweepMethod& m : axes.method)
-        if (m.kind != SweepKind::rigid && m.kind != SweepKind::rigid_vertical)
-            refuse_usage(fmt::format("--plane with --method {}.", m.id), "rigid and rigid-v on planes beside the base",
-                         "write  --method rigid,rigid-v");
     axes.plane = word_list(a.plane, "--plane", plane_names(scene));
+    for (const SweepMethod& m : axes.method) check_planes_of(m, axes.plane, scene);
     const bool own = a.friction.empty() && a.friction_deg.empty();
     for (std::string& plane : axes.plane) {
         if (own) axes.plane_friction.push_back(plane_friction(scene, plane));

@@ -51,7 +51,7 @@ std::vector<ColumnOf<SweepLine>> columns(const Grid& grid, bool mean)
     };
     std::vector<ColumnOf<L>> all{{{"id", "id"}, [](const L& l) { return count_cell(l.id); }}};
     if (has_plane_axis(axes))
-        all.push_back({{"plane", "plane"}, [](const L& l) {
+        all.push_back({if_varied(axes.plane.size(), {"plane", "plane"}), [](const L& l) {
                            const std::string& plane = l.axes().plane[l.at.plane];
                            return plane.empty() ? Cell(std::string(base_plane)) : Cell(plane);
                        }});
