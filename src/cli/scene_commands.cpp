@@ -208,8 +208,8 @@ int ablate(const ExplainArguments& arguments, const Streams& streams)
     need_section(given, "damslip explain --ablate", "damslip explain SCENE gives the effects of the wedge");
     if (method == Method::finite_elements) say_base(given, streams);
     check_records(given, method);
-    const Ready ready =
-        prepare(given, method, {.stop = streams.stop}); // the water is chosen once: no removal changes it
+    const Ready ready = // the water is chosen once: no removal changes it
+        prepare(given, method, {.joints_of_lifts = method == Method::finite_elements, .stop = streams.stop});
     const AblationPlan plan = make_ablations(ready.given, method, seepage_points(ready.given));
 
     TerminalWatch watch(streams);

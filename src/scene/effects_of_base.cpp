@@ -62,8 +62,9 @@ Decision decide_lift_joints(const Scene& s, Method method)
 
 Decision decide_lift_joint_water(const Scene& s, Method method)
 {
-    const bool any = std::any_of(s.lift_joints.begin(), s.lift_joints.end(),
-                                 [](const LiftJoint& j) { return j.water != JointWater::none; });
+    const auto has_water = [](const LiftJoint& j) { return j.water != JointWater::none; };
+    const bool any = std::any_of(s.lift_joints.begin(), s.lift_joints.end(), has_water) ||
+                     std::any_of(s.tied_lifts.begin(), s.tied_lifts.end(), has_water);
     return of_finite_elements(method, any, "lift_joint.water", "no lift_joint.water",
                               "nodal forces on both sides of the joint");
 }
@@ -131,7 +132,8 @@ std::vector<EffectRow> contact_effects()
         {.name = "water in lift joints",
          .decide = decide_lift_joint_water,
          .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             for (LiftJoint& joint : s.lift_joints) joint.water = JointWater::none;
+             for (std::vector<LiftJoint>* joints : {&s.lift_joints, &s.tied_lifts})
+                 for (LiftJoint& joint : *joints) joint.water = JointWater::none;
              return Removal{s, "lift_joint.water = \"none\""};
          },
          .part_of = [](const EffectPlan&) { return Effect::lift_joints; },

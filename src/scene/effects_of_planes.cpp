@@ -64,6 +64,11 @@ Decision of_seams(Method method, const Scene& s, const char* yes, const char* no
     return of_planes(s.seam_body ? Method::rigid_block : method, any_seam(s, is), yes, no, cost);
 }
 
+bool is_traced(const Scene& s)
+{
+    return s.dam.crack == BodyCrack::traced;
+}
+
 void leave_wedges(Scene& s)
 {
     for (Seam& seam : s.seams) {
@@ -191,6 +196,18 @@ std::vector<EffectRow> plane_effects()
              return Removal{s, "planes.geometry = \"small\""};
          },
          .concerns = has_seams},
+        {.name = "traced cracks",
+         .decide =
+             [](const Scene&, Method m) {
+                 return m == Method::rigid_block
+                            ? Decision{false, "rigid block", ""}
+                            : Decision{true, "dam.crack = \"traced\"", "a run anew for each crack, and each time a path moves"};
+             },
+         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+             s.dam.crack = BodyCrack::none;
+             return Removal{s, "dam.crack = \"none\": the concrete stays whole"};
+         },
+         .concerns = is_traced},
     };
 }
 

@@ -1,6 +1,8 @@
 // Lifts that wake, and what is said of cracks that the model does not have.
+#include "analysis/ablation/ablation.hpp"
 #include "analysis/fe/contact_runs.hpp"
 #include "analysis/fe/traced_cracks.hpp"
+#include "analysis/fe/variants.hpp"
 #include "core/input_error.hpp"
 #include "fe2d/run/step_error.hpp"
 #include "fe2d/run/step_parts.hpp"
@@ -438,6 +440,47 @@ TEST(TracedCracks, SayWhatTheyNeed)
     EXPECT_NE(said("").find("add  tensile_strength_MPa"), std::string::npos);
     EXPECT_EQ(said("tensile_strength_MPa = 2\n"), "");
     EXPECT_NE(said("tensile_strength_MPa = 2\n[time]\nscheme = \"central-difference\"\n").find("hht"), std::string::npos);
+}
+
+/// A variant of the ablation has the awake lifts of `fe`, and without its lifts another slip.
+TEST(Cracks, VariantsLetLiftsWake)
+{
+    const Ready ready = ready_of(dam_text("adaptive", {}, "2.5"));
+    Watch nobody;
+    const VariantRuns variant = run_variant(ready, {}, nobody);
+    const std::vector<ContactRun> runs = runs_of(ready);
+    ASSERT_EQ(variant.motions.size(), runs.size());
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        EXPECT_EQ(variant.motions[i].label(), runs[i].label());
+        EXPECT_EQ(variant.motions[i].slip, runs[i].fe.slip);
+        EXPECT_EQ(variant.motions[i].lift_slips.size(), runs[i].fe.lifts.size());
+    }
+    EXPECT_FALSE(variant.motions.front().lift_slips.empty());
+
+    const AblationPlan plan = make_ablations(ready.given, Method::finite_elements, {});
+    const auto lifts = std::find_if(plan.removals.begin(), plan.removals.end(),
+                                    [](const Ablation& a) { return a.effect == Effect::lift_joints; });
+    ASSERT_NE(lifts, plan.removals.end());
+    const AblationRuns ablated = run_ablations(plan, ready.pairs, 2, nobody);
+    EXPECT_EQ(ablated.scenes.front().motions.front().slip, runs.front().fe.slip); // time.substeps: the same step
+    const VariantRuns& whole = ablated.scenes[1 + static_cast<std::size_t>(lifts - plan.removals.begin())];
+    EXPECT_TRUE(whole.motions.front().lift_slips.empty());
+    EXPECT_NE(whole.motions.front().slip, runs.front().fe.slip);
+}
+
+/// The row "traced cracks" is that of scenes with `dam.crack`, and takes the key out.
+TEST(TracedCracks, AreAnEffect)
+{
+    const std::string traced = "tensile_strength_MPa = 2\ncrack = \"traced\"\n";
+    std::string text = dam_text("none");
+    text.insert(text.find("[contact]"), traced);
+    const AblationPlan plan = make_ablations(ready_of(text).given, Method::finite_elements, {});
+    const auto cracks = std::find_if(plan.removals.begin(), plan.removals.end(),
+                                     [](const Ablation& a) { return a.name == "traced cracks"; });
+    ASSERT_NE(cracks, plan.removals.end());
+    EXPECT_EQ(cracks->scene.dam.crack, BodyCrack::none);
+    for (const PlannedEffect& e : make_effect_plan(ready_of(dam_text("none")).given, Method::finite_elements).effects)
+        EXPECT_NE(e.name, "traced cracks");
 }
 
 /// Full head in the broken part of a lift of 10 m, 20 m below the reservoir: in a lift with water on a line the surplus falls on a

@@ -357,7 +357,7 @@ TEST(FeSeam, RowsOfASweepAreTheRunsOfTheirScenes)
 {
     Scene scene = elastic_seam(1.0);
     scene.planes.slides_on.clear();
-    const GroundMotion shaken = sines(4.0, 2.0, 1.0);
+    const GroundMotion shaken = sines(4.0, 3.0);
     RecordPair pair;
     pair.files.name = "sines";
     pair.horizontal.dt = shaken.dt;

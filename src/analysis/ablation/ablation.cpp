@@ -84,6 +84,12 @@ std::vector<Point> seepage_points(const Scene& scene)
 
 namespace {
 
+Ready ready_for(const AblationPlan& plan, const Scene& scene, const Records& records, const Watch& watch)
+{
+    const bool finite_elements = plan.method == Method::finite_elements; // rigid blocks know [lifts] as planes
+    return prepare(scene, plan.method, records, {.joints_of_lifts = finite_elements, .stop = watch.stop()});
+}
+
 /// The step of the full scene at its own accuracy, dt/8 at least; or that of time.substeps.
 AblationStep choose_step(const Ready& full, const Watch& watch)
 {
@@ -121,7 +127,7 @@ AblationRuns run_ablations(const AblationPlan& plan, const Records& records, int
     runs.scenes.resize(scenes.size());
     runs.other_step.resize(scenes.size());
     if (plan.method == Method::finite_elements)
-        runs.step = choose_step(prepare(plan.full, plan.method, records, {.stop = watch.stop()}), watch);
+        runs.step = choose_step(ready_for(plan, plan.full, records, watch), watch);
     const double first_share = runs.step ? 1.0 / (1.0 + std::exp2(runs.step->other - runs.step->halvings)) : 1.0;
     std::vector<double> shares(scenes.size(), 0.0);
     std::mutex mutex;
@@ -136,7 +142,7 @@ AblationRuns run_ablations(const AblationPlan& plan, const Records& records, int
         };
         try {
             const ProcessorClock clock;
-            const Ready ready = prepare(*scenes[i], plan.method, records, {.stop = watch.stop()});
+            const Ready ready = ready_for(plan, *scenes[i], records, watch);
             const double seconds = clock.seconds();
             if (runs.step) {
                 runs.scenes[i] = run_at(runs.step->halvings, ready, [&](double s) { done(first_share * s); }, watch);

@@ -109,6 +109,57 @@ void take(const fe2d::RunResult& r, double run_out, MotionOutcome& outcome)
     for (const fe2d::LiftResult& lift : r.lifts) outcome.lift_slips.push_back(lift.slip);
 }
 
+/// Adds what a run by finite elements came to.
+void add(const fe2d::RunResult& r, const Ready& ready, VariantRuns& runs, MotionOutcome& outcome)
+{
+    take(r, ready.scene.sliding.run_out_max, outcome);
+    runs.steps = runs.steps.value_or(0) + r.counts.steps;
+    runs.time_step = std::min(runs.time_step.value_or(r.dt), r.dt);
+    if (!r.stages.empty()) runs.critical_friction = r.stages.back().critical_friction;
+}
+
+std::int64_t unknowns_of(const fe2d::EarthquakeRun& model)
+{
+    return model.model().dofs.count + (model.water() ? model.water()->water.unknowns() : 0);
+}
+
+/// Says what share is done, and lets be stopped.
+class ShareWatch : public Watch {
+public:
+    ShareWatch(const Watch& outer, const std::function<void(double share)>& done) : outer_(outer), done_(done) {}
+    bool stop_asked() const override { return outer_.stop_asked(); }
+    void begin(const std::string&, double total) override { total_ = total; }
+    void at(double done) override
+    {
+        if (done_) done_(std::min(1.0, done / total_));
+    }
+
+private:
+    const Watch& outer_;
+    const std::function<void(double share)>& done_;
+    double total_ = 1.0;
+};
+
+/// Models follow each other as lifts wake and cracks are followed.
+VariantRuns run_awake(const Ready& ready, const VariantOptions& options, const Watch& watch)
+{
+    VariantRuns runs;
+    for (const MotionName& name : motion_names(ready.scene, ready.records())) runs.motions.emplace_back(MotionOutcome{name});
+    const ProcessorClock clock(options.seconds_of);
+    ShareWatch share(watch, options.done);
+    ContactRuns all(ready, {.mesh_error = false, .jobs = 1}, share);
+    runs.unknowns = unknowns_of(all.model());
+    runs.set_up_seconds = all.model().seconds();
+    std::size_t next = 0;
+    all.run([&](ContactRun& r, const GroundMotion&) {
+        add(r.fe, ready, runs, runs.motions[next++]);
+        r.fe.history = {};
+    });
+    const double seconds = std::max(0.0, clock.seconds() - runs.set_up_seconds);
+    for (MotionOutcome& outcome : runs.motions) outcome.seconds = seconds / static_cast<double>(runs.motions.size());
+    return runs;
+}
+
 VariantRuns run_finite_elements(const Ready& ready, const VariantOptions& options, const Watch& watch)
 {
     VariantRuns runs;
@@ -123,18 +174,14 @@ VariantRuns run_finite_elements(const Ready& ready, const VariantOptions& option
     const fe2d::EarthquakeRun model(ready.scene, of_run);
     std::optional<fe2d::ReducedRun> reduced;
     if (options.modes) reduced.emplace(model, ready.scene, of_run, *options.modes);
-    runs.unknowns = options.modes ? *options.modes + 3 // rigid motions
-                                  : model.model().dofs.count + (model.water() ? model.water()->water.unknowns() : 0);
+    runs.unknowns = options.modes ? *options.modes + 3 : unknowns_of(model); // with the rigid motions
     runs.set_up_seconds = clock.seconds();
     run_motions(ready, options, watch, runs, [&](const GroundMotion& motion, MotionOutcome& outcome) {
         const ProcessorClock run_clock(options.seconds_of);
         const fe2d::RunResult r =
             reduced ? reduced->run(motion, {}, {}, fe2d::TruncationEstimate::left_out) : model.run(motion);
         outcome.seconds = run_clock.seconds();
-        take(r, ready.scene.sliding.run_out_max, outcome);
-        runs.steps = runs.steps.value_or(0) + r.counts.steps;
-        runs.time_step = std::min(runs.time_step.value_or(r.dt), r.dt);
-        if (!r.stages.empty()) runs.critical_friction = r.stages.back().critical_friction;
+        add(r, ready, runs, outcome);
     });
     return runs;
 }
@@ -156,8 +203,9 @@ double VariantRuns::run_seconds() const
 
 VariantRuns run_variant(const Ready& ready, const VariantOptions& options, const Watch& watch)
 {
-    return ready.plan.method == Method::rigid_block ? run_rigid(ready, options, watch)
-                                                    : run_finite_elements(ready, options, watch);
+    if (ready.plan.method == Method::rigid_block) return run_rigid(ready, options, watch);
+    const bool wakes = !ready.scene.tied_lifts.empty() || ready.scene.dam.crack == BodyCrack::traced;
+    return wakes && !options.modes ? run_awake(ready, options, watch) : run_finite_elements(ready, options, watch);
 }
 
 VariantRuns without_model(Status status, const std::string& why, const std::vector<MotionName>& motions)
@@ -174,7 +222,8 @@ VariantRuns without_model(Status status, const std::string& why, const std::vect
 std::vector<ContactRun> run_record(const Scene& scene, const RecordPair& record, std::optional<int> polarity, Watch& watch)
 {
     const auto alone = std::make_shared<const std::vector<RecordPair>>(1, record);
-    const Ready ready = prepare(scene, Method::finite_elements, alone, {.stop = watch.stop()});
+    const Ready ready =
+        prepare(scene, Method::finite_elements, alone, {.joints_of_lifts = true, .stop = watch.stop()});
     FeOptions options;
     options.polarity = polarity;
     options.mesh_error = false;

@@ -61,8 +61,8 @@ struct VariantOptions {
     std::function<void(double share)> done = {}; ///< called with how much of the FE runs is done, 0 ... 1; may be empty
 };
 
-/// Runs all motions of a scene by the method that it is ready for. Tied lifts stay tied and no crack is traced here:
-/// ContactRuns, which run_worst() takes, follows both. @throws as the models
+/// Runs all motions of a scene by the method that it is ready for. By finite elements tied lifts wake and cracks are followed
+/// (ContactRuns); what that takes beside the set-up of the last model counts as runs. @throws as the models
 VariantRuns run_variant(const Ready& ready, const VariantOptions& options, const Watch& watch);
 
 /// Runs that could not be made.
