@@ -361,7 +361,7 @@ TEST(FeSeam, RowsOfASweepAreTheRunsOfTheirScenes)
     RecordPair pair;
     pair.files.name = "sines";
     pair.horizontal.dt = shaken.dt;
-    pair.horizontal.accel = shaken.accel_h;
+    pair.horizontal.acceleration = shaken.accel_h;
     Axes axes = axes_of(scene);
     axes.polarity = {1};
     axes.plane = {"", "D"};
