@@ -365,7 +365,7 @@ TEST(FeSeam, RowsOfASweepAreTheRunsOfTheirScenes)
     Axes axes = axes_of(scene);
     axes.polarity = {1};
     axes.plane = {"", "D"};
-    axes.friction = {0.85, 0.95};
+    axes.friction = {1.0, 1.1};
     axes.method = {sweep_method("fe")};
     Sweep sweep{scene, axes, {}, std::make_shared<const std::vector<RecordPair>>(1, pair)};
     sweep.tasks = make_tasks(axes, 1);
