@@ -106,14 +106,8 @@ struct CorrectedRun::OnFewModes {
 };
 
 CorrectedRun::CorrectedRun(const EarthquakeRun& full, const Scene& scene, const RunOptions& options)
-    : full_(full), tolerance_(scene.time.slip_tolerance), smallest_slip_(options.smallest_slip),
-      progress_(options.progress), few_(full, scene, of_few_modes(options))
+    : full_(full), progress_(options.progress), few_(full, scene, of_few_modes(options))
 {
-}
-
-double CorrectedRun::wanted(double largest_slip) const
-{
-    return tolerance_ * std::max(largest_slip, smallest_slip_);
 }
 
 /// Tells the progress before the runs on few modes of shaking `next`: those of all shakings count as a tenth of the work.
@@ -133,7 +127,7 @@ std::optional<CorrectedRun::OnFewModes> CorrectedRun::on_few_modes(const Shaking
     const bool constant = Strength(shaking.contact, full_.structure().plane()).constant();
     std::optional<Choice> choice;
     std::vector<RunResult> passes = few_.passes(shaking, [&](std::span<const RunResult> so_far) {
-        choice = coarsest_within(so_far, constant ? contact_order : sudden_order, wanted(so_far.back().max_slip));
+        choice = coarsest_within(so_far, constant ? contact_order : sudden_order, few_.wanted(so_far.back()));
         return choice || so_far.size() == most_passes;
     });
     if (!choice) return std::nullopt;
@@ -147,7 +141,7 @@ bool CorrectedRun::correct(const GroundMotion& motion, const OnFewModes& few, Ru
     if (run.status == Status::interrupted) return true;
     if (run.status != Status::at_rest) return false;
     run.slip_error = few.of_step + std::max(few.of_correction, largest_difference(run.history.slip, few.coarse.history.slip));
-    if (run.slip_error > wanted(run.max_slip)) return false;
+    if (run.slip_error > few_.wanted(run)) return false;
     run.seconds.dynamics += few.seconds;
     slide_farther(full_.structure(), few.coarse, few.fine, duration(motion), run);
     return true;

@@ -30,13 +30,11 @@ public:
 
 private:
     struct OnFewModes;
-    double wanted(double largest_slip) const; ///< error that the scene allows [m]
     bool stopped(std::size_t next, std::span<const Shaking> shakings) const;
     std::optional<OnFewModes> on_few_modes(const Shaking& shaking) const; ///< none: they do not settle within the tolerance
     bool correct(const GroundMotion& motion, const OnFewModes& few, RunResult& run) const;
 
     const EarthquakeRun& full_;
-    double tolerance_, smallest_slip_;
     std::function<RunAnswer(const RunProgress&)> progress_;
     ReducedRun few_;
 };

@@ -93,9 +93,9 @@ std::vector<Note> ReducedRun::obstacle() const
     return {};
 }
 
-double ReducedRun::wanted(double largest_slip) const
+double ReducedRun::wanted(const RunResult& run) const
 {
-    return scene_.time.slip_tolerance * std::max(largest_slip, options_.smallest_slip);
+    return allowed_error(scene_, options_, run.slip, run.max_slip);
 }
 
 ReducedRun::Motion ReducedRun::motion_of(const GroundMotion& motion, const std::optional<int>& halvings) const
@@ -160,7 +160,7 @@ ReducedState ReducedRun::refine(Motion& motion, Strength& strength, const Start&
         end = shake_with(k, motion, start, strength, result);
         slips.push_back({k, result.slip, largest_difference(coarser, result.history.slip)});
         result.slip_error = step_error(slips, strength.constant() ? contact_order : sudden_order);
-        if (result.slip_error <= wanted(result.max_slip)) break;
+        if (result.slip_error <= wanted(result)) break;
         if (was_self_excited && result.status == Status::self_excited) break; // both agree; there is no slip to refine
     }
     return end;
@@ -192,7 +192,7 @@ RunResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contac
     result.pair_opening = moved.contact.opening;
     const bool over = result.status == Status::at_rest || result.status == Status::sliding_at_end;
     const double length = structure.plane().length();
-    if (over && result.slip_error > wanted(result.max_slip)) result.status = Status::tolerance_missed;
+    if (over && result.slip_error > wanted(result)) result.status = Status::tolerance_missed;
     const double open = std::isfinite(result.slip_error) ? result.slip_error : 0.0;
     if (over && result.max_slip - open > length) result.status = Status::runs_away;
     const bool estimated = estimate == TruncationEstimate::made && result.status != Status::self_excited; // no slip

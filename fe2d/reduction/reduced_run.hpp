@@ -49,6 +49,7 @@ public:
     /// Passes with steps of Δt, Δt/2, Δt/4, ... until one does not come to rest, or `enough`: of each the history and the largest
     /// slip. None where nothing can move.
     std::vector<RunResult> passes(const Shaking& shaking, const Enough& enough) const;
+    double wanted(const RunResult& run) const; ///< allowed_error() of its slip [m]
     /// Why no run has an answer: a sentence for the user; empty: there is a model.
     const std::vector<Note>& why_not() const { return why_not_; }
 
@@ -91,7 +92,6 @@ private:
     /// @returns the state at the end of the last one
     ReducedState refine(Motion& motion, Strength& strength, const Start& start, RunResult& result,
                         std::vector<double>& first) const;
-    double wanted(double largest_slip) const; ///< error that the scene allows [m]
     /// @param first  slips of the run's first pass
     /// @returns nothing when one of its runs was interrupted
     std::optional<double> truncation_error(const Motion& motion, const Start& start,

@@ -42,6 +42,14 @@ double worst(std::vector<double> errors)
 
 } // namespace
 
+double allowed_error(const Scene& scene, const RunOptions& options, double slip, double largest)
+{
+    double distance = options.slip_limits.empty() ? 0.0 : std::numeric_limits<double>::infinity();
+    for (const double limit : options.slip_limits)
+        for (const double there : {std::abs(slip), largest}) distance = std::min(distance, std::abs(there - limit));
+    return std::max(scene.time.slip_tolerance * std::max(largest, options.smallest_slip), 0.5 * distance);
+}
+
 /// A dam that nothing has loaded yet.
 EarthquakeRun::BatchedRun EarthquakeRun::batched_run(const Contact& contact) const
 {
@@ -520,12 +528,11 @@ void EarthquakeRun::refine(int halvings, std::span<BatchedRun* const> batch) con
         batched.result.slip_error = step_error(batched.slips.front(), order);
         for (std::size_t k = 0; k < batched.result.lifts.size(); ++k)
             batched.result.lifts[k].slip_error = step_error(batched.slips[k + 1], order);
-        double excess = 0.0; // error over what is wanted, the largest of all planes
-        for (std::size_t k = 0; k < batched.slips.size(); ++k) {
-            const double slip = k == 0 ? batched.result.max_slip : batched.result.lifts[k - 1].largest_slip;
-            excess = std::max(excess, step_error(batched.slips[k], order) /
-                                          (scene_.time.slip_tolerance * std::max(slip, options_.smallest_slip)));
-        }
+        double excess = batched.result.slip_error /
+                        allowed_error(scene_, options_, batched.result.slip, batched.result.max_slip); // the largest of all planes
+        for (const LiftResult& lift : batched.result.lifts)
+            excess = std::max(excess, lift.slip_error / (scene_.time.slip_tolerance *
+                                                         std::max(lift.largest_slip, options_.smallest_slip)));
         if (batched.result.status == Status::left_plane || excess <= 1.0) continue;
         if (was_self_excited && batched.result.status == Status::self_excited)
             continue; // both agree; there is no slip to refine

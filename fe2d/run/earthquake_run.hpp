@@ -48,6 +48,7 @@ struct RunOptions {
     std::filesystem::path rock_cache; ///< folder of reduced rock (RockStore); empty: none
     int largest_halvings = 5;         ///< of sub-steps that are chosen
     double smallest_slip = 1e-6;      ///< errors below time.slip_tolerance of this do not matter [m]
+    std::vector<double> slip_limits = {}; ///< asked for is alone on which side of these the slip of the base lies [m]; empty: its size
     /// corrected_run() of fe2d/reduction; empty: steps that are chosen are halved
     std::function<std::unique_ptr<const StepCorrector>(const EarthquakeRun&, const Scene&, const RunOptions&)> corrector;
     std::optional<double> rest_time;  ///< the run-out ends when the dam has not slid for this long; none: window() [s]
@@ -64,6 +65,10 @@ struct RunOptions {
     StopAsked stop;                                  ///< asked between the parts of the set-up
     std::function<void(int unknowns)> reducing_rock; ///< RadiatingRockInput::reducing; empty: no call
 };
+
+/// Error of the step that the slip of the base may have: time.slip_tolerance of it, or where RunOptions::slip_limits are given half the
+/// distance to the nearest of them, if that is more [m]. @param largest  on the way [m]
+double allowed_error(const Scene& scene, const RunOptions& options, double slip, double largest);
 
 /// Seconds of each part.
 struct RunSeconds {

@@ -1,6 +1,7 @@
 #include "analysis/fragility/fragility_runs.hpp"
 
 #include "analysis/fe/contact_runs.hpp"
+#include "analysis/fragility/fragility_estimate.hpp"
 #include "analysis/prepare/plane_model.hpp"
 #include "analysis/sweep/sweep_rows.hpp"
 #include "core/file.hpp"
@@ -352,6 +353,18 @@ struct DrawnModel {
     std::string why_not;                             ///< it could not be made; empty: it could
 };
 
+/// Limits whose answers are all that is asked of a run; empty: something needs the slip itself.
+std::vector<double> slips_whose_side_counts(const FragilityInput& input)
+{
+    std::vector<double> slips;
+    if (input.intensity.design == FragilityDesign::cloud) return slips; // it fits the slips
+    for (const LimitInput& limit : input.limits) {
+        if (!is_of_slip(limit)) return {};
+        slips.push_back(limit.value);
+    }
+    return slips;
+}
+
 class FiniteElementSamples {
 public:
     FiniteElementSamples(const FragilityPlan& plan, const SceneText& text, const SweepMethod& method, Watch& watch)
@@ -496,6 +509,7 @@ private:
                 meter_.step(p);
                 return watch_.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
             };
+            options.slip_limits = slips_whose_side_counts(plan_.input);
             model.run = std::make_unique<fe2d::EarthquakeRun>(model.ready->scene, options);
             if (method_.reduced)
                 model.reduced =
