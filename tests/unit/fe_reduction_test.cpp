@@ -273,6 +273,35 @@ TEST(FeReduction, rock_that_missed_its_gate_gives_no_slip)
     fs::remove_all(folder);
 }
 
+/// Whoever asks on which side of a limit the slip lies gets it from longer steps, except near the limit, and with an error that is true.
+TEST(SlipLimits, AreAnsweredByAsManyHalvingsAsTheSideTakes)
+{
+    const Scene scene = small_dam(0.65);
+    const GroundMotion motion = sines(2.5, 8.0);
+    RunOptions options = options_of(scene);
+    const EarthquakeRun usual(scene, options);
+    const RunResult full = usual.run(motion), few = ReducedRun(usual, scene, options).run(motion);
+    ASSERT_EQ(full.status, Status::at_rest);
+    ASSERT_GT(full.halvings, 1);
+    EXPECT_DOUBLE_EQ(allowed_error(scene, options, full.slip, full.max_slip), scene.time.slip_tolerance * full.max_slip);
+    for (const double limit : {0.1, 1.0 + 1e-4, 2.0}) { // of the slip
+        options.slip_limits = {limit * full.max_slip};
+        const EarthquakeRun asked(scene, options);
+        for (const bool reduced : {false, true}) {
+            const RunResult run = reduced ? ReducedRun(asked, scene, options).run(motion) : asked.run(motion);
+            const RunResult& fine = reduced ? few : full;
+            ASSERT_EQ(run.status, Status::at_rest);
+            EXPECT_EQ(run.max_slip > options.slip_limits[0], fine.max_slip > options.slip_limits[0]) << limit << reduced;
+            EXPECT_LE(std::abs(run.slip - fine.slip), run.slip_error);
+            EXPECT_LE(run.slip_error, allowed_error(scene, options, run.slip, run.max_slip));
+            if (std::abs(limit - 1.0) < 0.01)
+                EXPECT_EQ(run.slip, fine.slip);
+            else
+                EXPECT_LT(run.halvings, fine.halvings);
+        }
+    }
+}
+
 /// Against steps much shorter than those that correct: the error is that of the slip, and no estimate of itself.
 TEST(CorrectedRun, IsWithinItsErrorOfMuchSmallerSteps)
 {
