@@ -296,12 +296,6 @@ ElementMatrix scalar_mass_matrix(const Corners& corners, int size, double capaci
     return m;
 }
 
-Eigen::Vector2d scalar_gradient(const Corners& corners, int size, const ElementVector& values)
-{
-    const QuadraturePoint point = size == 3 ? t3_points(corners)[0] : q4_point(corners, 0.0, 0.0);
-    return point.gradient.leftCols(size) * values.head(size);
-}
-
 Eigen::Matrix3d plane_strain_matrix(const ElasticMaterial& material)
 {
     const double nu = material.poisson_ratio;
@@ -317,11 +311,6 @@ ElasticMaterial plane_stress_equivalent(const ElasticMaterial& material)
 {
     const double nu = material.poisson_ratio;
     return {material.density, material.young_modulus * (1.0 + 2.0 * nu) / ((1.0 + nu) * (1.0 + nu)), nu / (1.0 + nu)};
-}
-
-double out_of_plane_stress(const ElasticMaterial& material, const Eigen::Vector3d& stress)
-{
-    return material.poisson_ratio * (stress[0] + stress[1]);
 }
 
 ElasticMaterial elastic_material(const Material& material, const Scene& scene, const char* key)

@@ -97,9 +97,6 @@ ElementMatrix scalar_gradient_matrix(const Corners& corners, int size, double co
 /// Integral of s N^T N; `capacity` s is 1/K_w for acoustics [1/Pa].
 ElementMatrix scalar_mass_matrix(const Corners& corners, int size, double capacity, const ExtraNodes& extra = {});
 
-/// Gradient of the field at the element's centre.
-Eigen::Vector2d scalar_gradient(const Corners& corners, int size, const ElementVector& values);
-
 /// Linear elastic isotropic material.
 struct ElasticMaterial {
     double density = 0.0;       ///< [kg/m^3]; 0: massless
@@ -114,9 +111,6 @@ Eigen::Matrix3d plane_strain_matrix(const ElasticMaterial& material);
 ///     E' = E (1 + 2 nu) / (1 + nu)^2,   nu' = nu / (1 + nu).
 /// For comparing with published plane stress results; the out-of-plane stress has no meaning then.
 ElasticMaterial plane_stress_equivalent(const ElasticMaterial& material);
-
-/// Stress normal to the plane in plane strain: nu (sigma_xx + sigma_yy) [Pa].
-double out_of_plane_stress(const ElasticMaterial& material, const Eigen::Vector3d& stress);
 
 /// Checked material of a scene. @throws InputError naming `key` when there is no Young's modulus: FE needs one.
 ElasticMaterial elastic_material(const Material& material, const Scene& scene, const char* key);

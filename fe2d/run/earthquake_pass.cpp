@@ -190,14 +190,4 @@ SlideInstant SlideProbe::instant(const ContactMotion& dynamics, const ContactLaw
     return now;
 }
 
-double friction_work(const ContactMemory& before, const ContactMemory& after)
-{
-    const Index m = after.slip.size();
-    return with_contact_force(before, [&](const auto& of_before) {
-        return with_contact_force(after, [&](const auto& of_after) {
-            return -0.5 * (of_before.tail(m) + of_after.tail(m)).dot(after.slip - before.slip);
-        });
-    });
-}
-
 } // namespace damslip::fe2d

@@ -34,9 +34,6 @@ private:
     std::vector<double> start_;           ///< mean slips by plane [m]
 };
 
-/// What friction takes in one step [J/m], by the mean of the forces at its two ends.
-double friction_work(const ContactMemory& before, const ContactMemory& after);
-
 /// The steps of a pass: rows of the history, and equal parts of each.
 struct PassSteps {
     double row = 0.0;       ///< [s]

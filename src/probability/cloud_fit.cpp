@@ -156,22 +156,4 @@ CloudFit fit_cloud(std::span<const CloudPoint> points, double smallest_slip)
     return fit;
 }
 
-std::vector<QuantilePair> quantile_pairs(const CloudFit& fit, std::span<const CloudPoint> points)
-{
-    std::vector<double> z;
-    for (const CloudPoint& p : points) {
-        if (p.failed || !(p.slip > fit.smallest_slip)) continue;
-        // P(slip <= D | slip > d_0), by the upper tails: 1 - Q.
-        const double mean = fit.a + fit.b * std::log(p.x);
-        const double beyond = std::exp(log_normal_cdf((mean - std::log(p.slip)) / fit.sigma) -
-                                       log_normal_cdf((mean - std::log(fit.smallest_slip)) / fit.sigma));
-        z.push_back(-normal_quantile(beyond));
-    }
-    std::sort(z.begin(), z.end());
-    std::vector<QuantilePair> pairs;
-    for (std::size_t i = 0; i < z.size(); ++i)
-        pairs.push_back({normal_quantile((static_cast<double>(i) + 0.5) / static_cast<double>(z.size())), z[i]});
-    return pairs;
-}
-
 } // namespace damslip::probability

@@ -42,10 +42,4 @@ struct CloudFit {
 /// @param smallest_slip  d_0 > 0 [m]: max(0.1 mm, 2 x slip error)
 CloudFit fit_cloud(std::span<const CloudPoint> points, double smallest_slip);
 
-/// Points of a QQ plot of the slips above d_0: normal quantiles of their fitted distribution over those of their ranks (i + 1/2) / n.
-struct QuantilePair {
-    double expected = 0.0, found = 0.0;
-};
-std::vector<QuantilePair> quantile_pairs(const CloudFit& fit, std::span<const CloudPoint> points);
-
 } // namespace damslip::probability

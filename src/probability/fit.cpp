@@ -476,31 +476,4 @@ ClusterInterval cluster_bootstrap(std::size_t clusters,
     return interval;
 }
 
-ClusterInterval cluster_proportion(std::span<const ClusterOutcome> outcomes, std::uint64_t seed, double confidence,
-                                   std::uint32_t draws)
-{
-    std::vector<std::size_t> names;
-    for (const ClusterOutcome& o : outcomes) names.push_back(o.cluster);
-    std::sort(names.begin(), names.end());
-    names.erase(std::unique(names.begin(), names.end()), names.end());
-    std::vector<double> sum(names.size(), 0.0), count(names.size(), 0.0);
-    for (const ClusterOutcome& o : outcomes) {
-        const std::size_t k =
-            static_cast<std::size_t>(std::lower_bound(names.begin(), names.end(), o.cluster) - names.begin());
-        sum[k] += o.f;
-        count[k] += 1.0;
-    }
-    ClusterInterval interval = cluster_bootstrap(
-        names.size(),
-        [&](std::span<const std::uint32_t> multiplicity) {
-            double f = 0.0, n = 0.0;
-            for (std::size_t k = 0; k < sum.size(); ++k) f += multiplicity[k] * sum[k], n += multiplicity[k] * count[k];
-            return f / n;
-        },
-        seed, confidence, draws);
-    interval.lower = std::clamp(interval.lower, 0.0, 1.0);
-    interval.upper = std::clamp(interval.upper, 0.0, 1.0);
-    return interval;
-}
-
 } // namespace damslip::probability

@@ -79,16 +79,6 @@ ClusterInterval cluster_bootstrap(std::size_t clusters,
                                   const std::function<double(std::span<const std::uint32_t>)>& statistic,
                                   std::uint64_t seed, double confidence = 0.95, std::uint32_t draws = 2000);
 
-/// One outcome: f = 1 or 0 (or a share between), met by the cluster (an event) it belongs to.
-struct ClusterOutcome {
-    std::size_t cluster = 0;
-    double f = 0.0;
-};
-
-/// The mean of f, by clusters. Ends are kept within 0 and 1.
-ClusterInterval cluster_proportion(std::span<const ClusterOutcome> outcomes, std::uint64_t seed,
-                                   double confidence = 0.95, std::uint32_t draws = 2000);
-
 /// Fragility P(D > d | x) = Phi(ln(x / median) / beta).
 struct LognormalCurve {
     double median = 1.0; ///< theta, unit of the intensity
