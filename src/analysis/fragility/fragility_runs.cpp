@@ -509,7 +509,7 @@ private:
                 meter_.step(p);
                 return watch_.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
             };
-            options.slip_limits = slips_whose_side_counts(plan_.input);
+            if (method_.reduced) options.slip_limits = slips_whose_side_counts(plan_.input); // full runs are those of `fe`
             model.run = std::make_unique<fe2d::EarthquakeRun>(model.ready->scene, options);
             if (method_.reduced)
                 model.reduced =
