@@ -528,8 +528,9 @@ void EarthquakeRun::refine(int halvings, std::span<BatchedRun* const> batch) con
         batched.result.slip_error = step_error(batched.slips.front(), order);
         for (std::size_t k = 0; k < batched.result.lifts.size(); ++k)
             batched.result.lifts[k].slip_error = step_error(batched.slips[k + 1], order);
-        double excess = batched.result.slip_error /
-                        allowed_error(scene_, options_, batched.result.slip, batched.result.max_slip); // the largest of all planes
+        double excess = 0.0; // error over what is allowed, the largest of all planes; one that is no number halves nothing
+        excess = std::max(excess, batched.result.slip_error /
+                                      allowed_error(scene_, options_, batched.result.slip, batched.result.max_slip));
         for (const LiftResult& lift : batched.result.lifts)
             excess = std::max(excess, lift.slip_error / (scene_.time.slip_tolerance *
                                                          std::max(lift.largest_slip, options_.smallest_slip)));

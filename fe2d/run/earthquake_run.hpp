@@ -48,7 +48,7 @@ struct RunOptions {
     std::filesystem::path rock_cache; ///< folder of reduced rock (RockStore); empty: none
     int largest_halvings = 5;         ///< of sub-steps that are chosen
     double smallest_slip = 1e-6;      ///< errors below time.slip_tolerance of this do not matter [m]
-    std::vector<double> slip_limits = {}; ///< asked for is alone on which side of these the slip of the base lies [m]; empty: its size
+    std::vector<double> slip_limits = {}; ///< only the side of these is asked for on which the slip of the base lies [m]; empty: the slip
     /// corrected_run() of fe2d/reduction; empty: steps that are chosen are halved
     std::function<std::unique_ptr<const StepCorrector>(const EarthquakeRun&, const Scene&, const RunOptions&)> corrector;
     std::optional<double> rest_time;  ///< the run-out ends when the dam has not slid for this long; none: window() [s]
