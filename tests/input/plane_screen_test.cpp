@@ -86,6 +86,22 @@ TEST_F(PlaneScreen, SweepsThePlane)
     EXPECT_NE((wrong.talk + wrong.out).find("Did you mean clay?"), std::string::npos) << wrong.talk;
 }
 
+/// Finite elements slide on the base and on seams, not on few modes, and have one angle of the wedge.
+TEST_F(PlaneScreen, SweepsByFiniteElementsNameWhatTheyDoNotFollow)
+{
+    const auto said = [&](const std::string& plane, const std::string& method, const std::string& friction) {
+        const ProgramAnswer answer =
+            answer_of({"sweep", file.string(), "--plane", plane, "--method", method, "--friction", friction});
+        EXPECT_EQ(answer.code, 2) << answer.out;
+        return answer.talk;
+    };
+    EXPECT_NE(said("base,lift at 20 m", "rigid,fe", "0.8").find("take \"lift at 20 m\" out"), std::string::npos);
+    EXPECT_NE(said("clay", "fe-reduced", "0.8").find("--plane with --method fe-reduced."), std::string::npos);
+    const std::string searched = said("base,clay", "rigid,fe", "0.8,0.9");
+    EXPECT_NE(searched.find("on \"clay\", whose wedge is searched for."), std::string::npos) << searched;
+    EXPECT_NE(searched.find("angle_deg = 25"), std::string::npos) << searched;
+}
+
 /// Every lift vibrates with the dam: factor, yield and slip are those of its own motion, in `screen` as in `sweep`.
 TEST_F(PlaneScreen, LiftsSlideInTwoSteps)
 {

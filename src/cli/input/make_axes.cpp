@@ -241,7 +241,8 @@ void add_mode_axes(const SweepArguments& a, const Scene& scene, Axes& axes)
 }
 
 /// What a method slides on beside the base: rigid blocks on every plane, finite elements of the whole dam on seams.
-void check_planes_of(const SweepMethod& m, const std::vector<std::string>& planes, const Scene& scene)
+/// @param own  each plane keeps its own friction
+void check_planes_of(const SweepMethod& m, const std::vector<std::string>& planes, const Scene& scene, bool own)
 {
     if (m.kind == SweepKind::rigid || m.kind == SweepKind::rigid_vertical) return;
     if (m.kind != SweepKind::finite_elements || m.reduced)
@@ -256,6 +257,12 @@ void check_planes_of(const SweepMethod& m, const std::vector<std::string>& plane
             refuse_usage(fmt::format("--plane \"{}\" with --method {}.", plane, m.id),
                          "base and seams; lifts wake beside the base in  damslip fe  and  damslip assess",
                          fmt::format("take \"{}\" out, or write  --method rigid,rigid-v", plane));
+    for (const Seam& seam : scene.seams) // the plane of the least yield, in which the mesh has its wedge, is another with each friction
+        if (!own && seam.exit == SeamExit::wedge && seam.wedge->angles.size() != 1 &&
+            std::find(planes.begin(), planes.end(), seam.name) != planes.end())
+            refuse_usage(fmt::format("--friction with --method {} on \"{}\", whose wedge is searched for.", m.id, seam.name),
+                         "a wedge of one angle, as the mesh has it; damslip screen finds that of the least yield",
+                         "write  angle_deg = 25  (or that angle) in [seam.wedge], or leave --friction out");
 }
 
 /// What the dam slides on. Each plane keeps its own friction unless --friction gives one for all.
@@ -269,8 +276,8 @@ void add_plane_axis(const SweepArguments& a, const Scene& scene, Axes& axes)
                          "--friction, --level, --reservoir, --scale, --polarity: water and size of a plane are its keys",
                          fmt::format("delete {}", flag));
     axes.plane = word_list(a.plane, "--plane", plane_names(scene));
-    for (const SweepMethod& m : axes.method) check_planes_of(m, axes.plane, scene);
     const bool own = a.friction.empty() && a.friction_deg.empty();
+    for (const SweepMethod& m : axes.method) check_planes_of(m, axes.plane, scene, own);
     for (std::string& plane : axes.plane) {
         if (own) axes.plane_friction.push_back(plane_friction(scene, plane));
         if (plane == base_plane) plane.clear();
