@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 #if DAMSLIP_HAS_AVX2
 #include <immintrin.h>
@@ -45,15 +46,14 @@ InterfaceFactor::InterfaceFactor(const SparseMatrix& of_nodes, int inner_nodes, 
     const Eigen::VectorXd& d = ldlt.diagonal;
     if (!d.allFinite() || (d.array() == 0.0).any() || (negative >= 0 && (d.array() < 0.0).count() != negative)) return;
     schur_ = ldlt.schur(matrix);
-    // Of one sign each; what nothing holds is none, up to round-off, so a multiple of the identity is added for the check.
-    const Index below = 2 * negative_nodes, above = schur_.rows() - below;
-    const auto definite = [](Eigen::MatrixXd part, double shift) {
-        part.diagonal().array() += shift;
-        return part.rows() == 0 || Eigen::LLT<Eigen::MatrixXd>(part).info() == Eigen::Success;
+    // Where the whole is what its inner part is, so is the Schur complement: its diagonal tells what is not. What nothing holds is
+    // zero up to round-off.
+    const Index below = 2 * negative_nodes;
+    const auto of_sign = [&](Index first, Index count, double sign) {
+        const auto given = matrix.diagonal().tail(schur_.rows()).segment(first, count).array().abs();
+        return (sign * schur_.diagonal().segment(first, count).array() >= -1e-10 * given).all();
     };
-    const auto mean = [&](Index first, Index count) { return matrix.diagonal().segment(first, count).mean(); };
-    if (below > 0 && !definite(-schur_.topLeftCorner(below, below), -mean(2 * inner_, below))) return;
-    if (!definite(schur_.bottomRightCorner(above, above), mean(matrix.rows() - above, above))) return;
+    if (!of_sign(0, below, -1.0) || !of_sign(below, schur_.rows() - below, 1.0)) return;
     regular_ = true;
 
     begin_ = std::move(ldlt.begin);
@@ -70,6 +70,18 @@ InterfaceFactor::InterfaceFactor(const SparseMatrix& of_nodes, int inner_nodes, 
         const double first = 1.0 / d[2 * j], second = 1.0 / d[2 * j + 1];
         pivot_.push_back({first + l * l * second, -l * second, second});
     }
+}
+
+InterfaceFactor::Moving InterfaceFactor::moving(const double* const x, const int width) const
+{
+    const auto rests = [&](int node) {
+        return std::all_of(x + width * node, x + width * (node + 1), [](double value) { return value == 0.0; });
+    };
+    int first = inner_, end = static_cast<int>(schur_.rows() / 2) + inner_;
+    while (first < end && rests(first)) ++first;
+    if (first == end) return {std::numeric_limits<int>::max(), end};
+    while (rests(end - 1)) --end;
+    return {first, end};
 }
 
 // Both unknowns of a node stand together, column after column. Each column sees the same operations in the same order
@@ -103,12 +115,14 @@ template <int columns>
 void InterfaceFactor::backward_columns(double* const x) const
 {
     constexpr int width = 2 * columns;
+    const Moving moves = moving(x, width);
     for (int j = inner_ - 1; j >= 0; --j) {
         Pair first[columns], second[columns], first_odd[columns], second_odd[columns];
         for (int column = 0; column < columns; ++column)
             first[column] = second[column] = first_odd[column] = second_odd[column] = Pair::Zero();
         int k = begin_[j];
         for (const int end = begin_[j + 1]; k + 1 < end; k += 2) { // two sums each: they do not wait for each other
+            if (moves.skip(row_[k], row_[k + 1], inner_)) continue;
             const double *const l = block_[k].v, *const m = block_[k + 1].v;
             const double *const y = x + width * row_[k], *const z = x + width * row_[k + 1];
             for (int column = 0; column < columns; ++column) {
@@ -175,12 +189,14 @@ DAMSLIP_AVX2 void InterfaceFactor::backward_avx2(double* const x) const
 {
     const int *const rows = row_.data(), *const begin = begin_.data();
     const Block* const blocks = block_.data();
-    for (int j = inner_ - 1; j >= 0; --j) {
+    const Moving moves = moving(x, 2);
+    for (int j = inner_ - 1, inner = inner_; j >= 0; --j) {
         __m256d first = _mm256_setzero_pd(), second = first;
         const int count = begin[j + 1] - begin[j];
         const int* row = rows + begin[j];
         const double* l = blocks[begin[j]].v;
         for (const int* const end = row + (count & ~1); row != end; row += 2, l += 8) {
+            if (moves.skip(row[0], row[1], inner)) continue;
             const __m256d values = both(x + 2 * row[0], x + 2 * row[1]);
             first = _mm256_add_pd(first, _mm256_mul_pd(_mm256_load_pd(l), values));
             second = _mm256_add_pd(second, _mm256_mul_pd(_mm256_load_pd(l + 4), values));
@@ -231,6 +247,7 @@ template <int columns>
 DAMSLIP_AVX2 void InterfaceFactor::backward_columns_avx2(double* const x) const
 {
     constexpr int width = 2 * columns, halves = columns / 2;
+    const Moving moves = moving(x, width);
     for (int j = inner_ - 1; j >= 0; --j) {
         __m256d first[2][halves], second[2][halves]; // of even and of odd blocks
         for (int parity = 0; parity < 2; ++parity)
@@ -247,6 +264,7 @@ DAMSLIP_AVX2 void InterfaceFactor::backward_columns_avx2(double* const x) const
         };
         int k = begin_[j];
         for (const int end = begin_[j + 1]; k + 1 < end; k += 2) {
+            if (moves.skip(row_[k], row_[k + 1], inner_)) continue;
             add(0, row_[k], block_[k].v, block_[k + 1].v);
             add(1, row_[k + 1], block_[k].v + 2, block_[k + 1].v + 2);
         }

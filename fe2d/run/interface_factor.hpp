@@ -35,7 +35,7 @@ public:
 
     /// @param level  the same bits on every level
     void forward(Eigen::VectorXd& b, VectorLevel level = vector_level()) const;
-    /// @param b  interface part: u_c on entry, kept
+    /// @param b  interface part: u_c on entry, kept. Where it is zero nothing is read of the factor: jumps of pairs that stick.
     void backward(Eigen::VectorXd& b, VectorLevel level = vector_level()) const;
     /// Several vectors in one pass over the factor: up to four at a time, each with the same bits as alone.
     /// @param gathered  work space
@@ -57,6 +57,14 @@ public:
     };
 
 private:
+    /// Nodes of the interface whose values are not all zero.
+    struct Moving {
+        int first, end; ///< without any: all numbers lie before `first`
+        /// Two rows of a column whose values are zero: pairs that stick have no jump.
+        bool skip(int row, int next, int inner) const { return row >= inner && (next < first || row >= end); }
+    };
+    Moving moving(const double* x, int width) const; ///< @param width  numbers of a node
+
     template <int columns>
     void forward_columns(double* x) const;
     template <int columns>
@@ -82,7 +90,7 @@ private:
     int inner_;
     std::vector<Tie> ties_;
     bool regular_ = false;
-    std::vector<int> begin_, row_; ///< blocks of column j: begin_[j] ... begin_[j+1]-1; row_: node
+    std::vector<int> begin_, row_; ///< blocks of column j: begin_[j] ... begin_[j+1]-1; row_: node, ascending
     std::vector<Block> block_;
     std::vector<Pivot> pivot_;
     Eigen::MatrixXd schur_;

@@ -101,8 +101,11 @@ void add_product(const MatrixXd& matrix, const Eigen::Ref<const VectorXd>& x, Ei
 #if DAMSLIP_HAS_AVX2
     const Index rows = matrix.rows(), columns = matrix.cols();
     const Index block = columns < 128 ? columns : rows * Index(sizeof(double)) < 32000 ? 16 : 4;
-    for (Index j = 0; j < columns; j += block)
-        add_columns_avx2({matrix.data() + j * rows, rows, std::min(block, columns - j)}, x.data() + j, rows, y.data());
+    for (Index j = 0; j < columns; j += block) {
+        const Index count = std::min(block, columns - j);
+        if (x.segment(j, count).isZero(0.0)) continue; // landings shake few of many pairs
+        add_columns_avx2({matrix.data() + j * rows, rows, count}, x.data() + j, rows, y.data());
+    }
 #endif
 }
 
