@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 
 #if DAMSLIP_HAS_AVX2
 #include <immintrin.h>
@@ -24,6 +23,14 @@ using Values = Eigen::Map<const Pair>;
 void join(InterfaceFactor::Block& one, InterfaceFactor::Block& other)
 {
     std::swap_ranges(one.v + 2, one.v + 4, other.v);
+}
+
+/// Are the values of both nodes zero? Jumps of pairs that stick are.
+inline bool rest(const double* const y, const double* const z, int numbers)
+{
+    for (int i = 0; i < numbers; ++i)
+        if (y[i] != 0.0 || z[i] != 0.0) return false;
+    return true;
 }
 
 /// A_ii⁻¹ b less what stands behind. @param here  b of the node on entry
@@ -72,18 +79,6 @@ InterfaceFactor::InterfaceFactor(const SparseMatrix& of_nodes, int inner_nodes, 
     }
 }
 
-InterfaceFactor::Moving InterfaceFactor::moving(const double* const x, const int width) const
-{
-    const auto rests = [&](int node) {
-        return std::all_of(x + width * node, x + width * (node + 1), [](double value) { return value == 0.0; });
-    };
-    int first = inner_, end = static_cast<int>(schur_.rows() / 2) + inner_;
-    while (first < end && rests(first)) ++first;
-    if (first == end) return {std::numeric_limits<int>::max(), end};
-    while (rests(end - 1)) --end;
-    return {first, end};
-}
-
 // Both unknowns of a node stand together, column after column. Each column sees the same operations in the same order
 // whatever the number of columns.
 template <int columns>
@@ -115,16 +110,15 @@ template <int columns>
 void InterfaceFactor::backward_columns(double* const x) const
 {
     constexpr int width = 2 * columns;
-    const Moving moves = moving(x, width);
     for (int j = inner_ - 1; j >= 0; --j) {
         Pair first[columns], second[columns], first_odd[columns], second_odd[columns];
         for (int column = 0; column < columns; ++column)
             first[column] = second[column] = first_odd[column] = second_odd[column] = Pair::Zero();
         int k = begin_[j];
         for (const int end = begin_[j + 1]; k + 1 < end; k += 2) { // two sums each: they do not wait for each other
-            if (moves.skip(row_[k], row_[k + 1], inner_)) continue;
             const double *const l = block_[k].v, *const m = block_[k + 1].v;
             const double *const y = x + width * row_[k], *const z = x + width * row_[k + 1];
+            if (row_[k] >= inner_ && rest(y, z, width)) continue;
             for (int column = 0; column < columns; ++column) {
                 first[column] += Values(l) * Values(y + 2 * column);
                 second[column] += Values(m) * Values(y + 2 * column);
@@ -189,15 +183,15 @@ DAMSLIP_AVX2 void InterfaceFactor::backward_avx2(double* const x) const
 {
     const int *const rows = row_.data(), *const begin = begin_.data();
     const Block* const blocks = block_.data();
-    const Moving moves = moving(x, 2);
     for (int j = inner_ - 1, inner = inner_; j >= 0; --j) {
         __m256d first = _mm256_setzero_pd(), second = first;
         const int count = begin[j + 1] - begin[j];
         const int* row = rows + begin[j];
         const double* l = blocks[begin[j]].v;
         for (const int* const end = row + (count & ~1); row != end; row += 2, l += 8) {
-            if (moves.skip(row[0], row[1], inner)) continue;
             const __m256d values = both(x + 2 * row[0], x + 2 * row[1]);
+            const __m256i bits = _mm256_castpd_si256(values);
+            if (row[0] >= inner && _mm256_testz_si256(bits, bits)) continue; // jumps of pairs that stick are zero
             first = _mm256_add_pd(first, _mm256_mul_pd(_mm256_load_pd(l), values));
             second = _mm256_add_pd(second, _mm256_mul_pd(_mm256_load_pd(l + 4), values));
         }
@@ -247,7 +241,6 @@ template <int columns>
 DAMSLIP_AVX2 void InterfaceFactor::backward_columns_avx2(double* const x) const
 {
     constexpr int width = 2 * columns, halves = columns / 2;
-    const Moving moves = moving(x, width);
     for (int j = inner_ - 1; j >= 0; --j) {
         __m256d first[2][halves], second[2][halves]; // of even and of odd blocks
         for (int parity = 0; parity < 2; ++parity)
@@ -264,7 +257,7 @@ DAMSLIP_AVX2 void InterfaceFactor::backward_columns_avx2(double* const x) const
         };
         int k = begin_[j];
         for (const int end = begin_[j + 1]; k + 1 < end; k += 2) {
-            if (moves.skip(row_[k], row_[k + 1], inner_)) continue;
+            if (row_[k] >= inner_ && rest(x + width * row_[k], x + width * row_[k + 1], width)) continue;
             add(0, row_[k], block_[k].v, block_[k + 1].v);
             add(1, row_[k + 1], block_[k].v + 2, block_[k + 1].v + 2);
         }

@@ -57,14 +57,6 @@ public:
     };
 
 private:
-    /// Nodes of the interface whose values are not all zero.
-    struct Moving {
-        int first, end; ///< without any: all numbers lie before `first`
-        /// Two rows of a column whose values are zero: pairs that stick have no jump.
-        bool skip(int row, int next, int inner) const { return row >= inner && (next < first || row >= end); }
-    };
-    Moving moving(const double* x, int width) const; ///< @param width  numbers of a node
-
     template <int columns>
     void forward_columns(double* x) const;
     template <int columns>
