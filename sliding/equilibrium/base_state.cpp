@@ -266,6 +266,19 @@ private:
     const SeepageProfile& seepage_;
 };
 
+/// Bisected between an acceleration at which it does not happen and one at which it does; what happens under any acceleration does at none.
+template <class Happens>
+double between(const Happens& happens, double not_yet, double already)
+{
+    constexpr double none = 1e-12; // [m/s^2]
+    while (already - not_yet > 1e-12 * already) {
+        if (already < none) return 0.0;
+        const double middle = not_yet + 0.5 * (already - not_yet);
+        (happens(middle) ? already : not_yet) = middle;
+    }
+    return already;
+}
+
 /// Smallest acceleration from which on it happens, bracketed by doubling and bisected; infinite if none makes it happen.
 template <class Happens>
 double smallest_acceleration(const Happens& happens)
@@ -277,11 +290,7 @@ double smallest_acceleration(const Happens& happens)
         not_yet = already;
         already *= 2.0;
     }
-    while (already - not_yet > 1e-12 * already) {
-        const double middle = not_yet + 0.5 * (already - not_yet);
-        (happens(middle) ? already : not_yet) = middle;
-    }
-    return already;
+    return between(happens, not_yet, already);
 }
 
 /// The same for what may come, go and come again as the acceleration grows: the first of many even steps up to one that
@@ -302,11 +311,7 @@ double first_acceleration(const Happens& happens)
         last = a;
         break;
     }
-    while (last - before > 1e-12 * last) {
-        const double middle = before + 0.5 * (last - before);
-        (happens(middle) ? last : before) = middle;
-    }
-    return last;
+    return between(happens, before, last);
 }
 
 } // namespace

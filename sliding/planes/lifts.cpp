@@ -20,6 +20,22 @@ struct MovedPart {
     AddedMassIntegral water; ///< weighted alike
 };
 
+/// The face with corners at these levels, where what is integrated along it has kinks. @param levels  x: level [m]
+Polyline with_levels(const Polyline& face, const std::vector<Point>& levels)
+{
+    Polyline more{face.front()};
+    for (std::size_t i = 1; i < face.size(); ++i) {
+        const Point a = face[i - 1], b = face[i];
+        std::vector<double> shares;
+        for (const Point p : levels)
+            if ((p.x - a.y) * (b.y - p.x) > 0.0) shares.push_back((p.x - a.y) / (b.y - a.y));
+        std::sort(shares.begin(), shares.end());
+        for (const double share : shares) more.push_back({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)});
+        more.push_back(b);
+    }
+    return more;
+}
+
 MovedPart moved_part(const Scene& scene, const Scene& part, double elevation, const std::function<double(double)>& share)
 {
     MovedPart moved;
@@ -70,6 +86,7 @@ MovedPart moved_part(const Scene& scene, const Scene& part, double elevation, co
         Polyline face = upstream_face(part.section);
         const Point origin = {face.front().x - part.section.polygon.front().x, elevation};
         for (Point& p : face) p = {p.x, p.y + elevation};
+        if (share && scene.lifts->amplification == Amplification::points) face = with_levels(face, scene.lifts->points);
         moved.water = integrate_added_mass(
             scene.added_mass, {scene.reservoir->level, scene.reservoir->density, scene.reservoir->bulk_modulus}, face, share);
         // Moments about the upstream end of the joint.
@@ -115,17 +132,21 @@ LiftState lift_state(const Scene& part, const LiftJoint& joint, const MovedPart&
     if (moved.water.xx > 0.0) load += hydrodynamic_force(moved.water, -ground.a_h, ground.a_v).total();
 
     LiftState state;
-    const double length = before.frame.length;
-    state.base = uncracked_base(base_load(before.frame, load), length, before.base.profile);
-    const double width = before.frame.share, mean = state.base.effective_normal / (length * width);
-    const double bending = 6.0 * mean * (0.5 - state.base.resultant_distance / length);
-    state.heel_stress = mean + bending;
-    state.toe_stress = mean - bending;
-    if (std::min(state.heel_stress, state.toe_stress) < -joint.strength.bond.tensile_strength) {
+    const double length = before.frame.length, width = before.frame.share;
+    const auto put_stresses = [&](const Force& under) { // of a beam that has not cracked
+        state.base = uncracked_base(base_load(before.frame, under), length, before.base.profile);
+        const double mean = state.base.effective_normal / (length * width);
+        const double bending = 6.0 * mean * (0.5 - state.base.resultant_distance / length);
+        state.heel_stress = mean + bending;
+        state.toe_stress = mean - bending;
+        return std::min(state.heel_stress, state.toe_stress) < -joint.strength.bond.tensile_strength;
+    };
+    const bool cracks_at_rest = put_stresses(before.load);
+    if (put_stresses(load)) {
         static_case.crack = rule;
         const bool shaken = ground.a_h != 0.0 || ground.a_v != 0.0;
         StaticCase no_tension = static_case;
-        no_tension.crack = shaken ? CrackRule::none : CrackRule::fixed_static;
+        no_tension.crack = cracks_at_rest ? CrackRule::fixed_static : CrackRule::none;
         const BaseState rest = base_state(part, no_tension);
         state.base = shaken ? shaken_base(part, static_case, rest, load, {}) : rest.base;
     }

@@ -518,6 +518,7 @@ namespace {
 
 /// The chain of a seam that has slid. @param angle  of the wedge; none: the body alone
 using ChainOf = std::function<Chain(std::optional<double> angle, const SeamState& state)>;
+bool is_block(const Chain& chain, const Seam& seam);
 SlipStages stages_of(const Scene& scene, const Seam& seam, std::optional<double> angle, double growth, const ChainOf& chain_of);
 std::vector<SeamStage> bodies_of(const Scene& scene, const Seam& seam, std::optional<double> angle, double growth,
                                  const ChainOf& chain_of);
@@ -555,6 +556,11 @@ std::vector<std::optional<double>> least_angles(const Scene& scene, const Seam& 
         }
     std::vector<double> values = states.empty() ? ground.rock().yields.yields(model.chain) : std::vector<double>(scan.size());
     ChainLaw law;
+    const auto alone = [&](std::size_t k) {
+        Chain body = ground.body().chain;
+        put_strengths(seam, {}, seam.interface.model, ground.rock().path.size() - 1, body);
+        return k < states.size() ? chain_factor(body, states[k].a_h, states[k].a_v) : chain_law(body).yield();
+    };
     for (std::size_t k = 0; k <= states.size(); ++k) {
         for (std::size_t i = 0; i < plane.trials.size(); ++i)
             values[i] = k < states.size() ? plane.trials[i].factors[k] : plane.trials[i].yield;
@@ -568,7 +574,12 @@ std::vector<std::optional<double>> least_angles(const Scene& scene, const Seam& 
         for (; best < scan.size() && !stands(best); best = least_place(values)) values[best] = unbounded;
         if (best == scan.size()) continue;
         angles[k] = scan[best].angle;
-        if (!seam.wedge->angles.empty()) continue;
+        if (!seam.wedge->angles.empty()) { // joints that are there: one at which the wedge falls leaves the body alone
+            bool falls = false;
+            for (std::size_t i = 0; i < scan.size(); ++i) falls = falls || !stands(i);
+            if (falls && alone(k) < values[best]) angles[k] = std::nullopt;
+            continue;
+        }
         const bool at_end = best == 0 || best + 1 == scan.size();
         plane.at_end_of_range = plane.at_end_of_range || at_end;
         if (at_end) continue;
@@ -591,6 +602,19 @@ std::vector<std::optional<double>> least_angles(const Scene& scene, const Seam& 
     const auto same = [](const WedgeTrial& a, const WedgeTrial& b) { return a.angle == b.angle; };
     plane.trials.erase(std::unique(plane.trials.begin(), plane.trials.end(), same), plane.trials.end());
     return angles;
+}
+
+/// Friction of the first `segments` blocks at which the yield is zero, so that F is 1; infinite where none holds.
+double friction_that_holds(const Chain& chain, const ChainLaw& law, std::size_t segments)
+{
+    std::vector<Point> weights;
+    auto excess = [&, held = chain](double friction) mutable {
+        for (std::size_t i = 0; i < segments; ++i) held.blocks[i].friction = friction;
+        return yield_with(held, chain, law, weights);
+    };
+    double high = 1.0;
+    while (high < 1e3 && excess(high) < 0.0) high *= 2.0;
+    return excess(0.0) >= 0.0 ? 0.0 : excess(high) < 0.0 ? unbounded : bracketed_root(excess, 0.0, high);
 }
 
 } // namespace
@@ -639,16 +663,19 @@ SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<Gro
     const ChainLaw law = chain_law(chain);
     plane.yield = law.yield();
     plane.status = chain_status(chain, law, plane.yield, 0.0);
-    // F = 1 where the yield is zero.
-    const std::size_t of_seam = chain.blocks.size() - (plane.angle ? 1 : 0);
-    std::vector<Point> weights;
-    auto excess = [&, held = chain](double friction) mutable {
-        for (std::size_t i = 0; i < of_seam; ++i) held.blocks[i].friction = friction;
-        return yield_with(held, chain, law, weights);
-    };
-    double high = 1.0;
-    while (high < 1e3 && excess(high) < 0.0) high *= 2.0;
-    plane.holding_friction = excess(0.0) >= 0.0 ? 0.0 : excess(high) < 0.0 ? unbounded : bracketed_root(excess, 0.0, high);
+    plane.holding_friction = friction_that_holds(chain, law, on_rock.path.size() - 1);
+    if (plane.angle && !states.empty()) // the least yield under that friction may be at another angle
+        for (int pass = 0; pass < 20 && plane.holding_friction > 0.0 && std::isfinite(plane.holding_friction); ++pass) {
+            Seam held = seam;
+            held.strength.friction_table.clear();
+            held.strength.residual_friction.reset();
+            held.strength.friction = plane.holding_friction;
+            SeamPlane found;
+            const Chain other = model_of(scene, on_rock, held, least_angles(scene, held, {}, ground, found).back()).chain;
+            const double before = plane.holding_friction;
+            plane.holding_friction = std::max(before, friction_that_holds(other, chain_law(other), on_rock.path.size() - 1));
+            if (plane.holding_friction - before <= 1e-9 * before) break;
+        }
     plane.valid_slip = unbounded;
     if (plane.status == ChainStatus::locked) {
         plane.stages = stages_of(scene, seam, plane.angle, 0.0, chain_of);
@@ -681,6 +708,7 @@ SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<Gro
         }
     }
     plane.stages = stages_of(scene, seam, plane.angle, growth, chain_of);
+    plane.of_block = is_block(chain, seam);
     return plane;
 }
 
@@ -732,29 +760,58 @@ std::vector<Piece> pieces_of(const Scene& scene, const Seam& seam)
     return pieces;
 }
 
+/// Does the chain move as the base does, so that its lift-off and its way upstream are those of a block?
+bool is_block(const Chain& chain, const Seam& seam)
+{
+    return chain.blocks.size() == 1 && seam.dilation == 0.0 && std::isfinite(chain_law(chain).yield());
+}
+
+RigidBlock own_block(const Chain& chain)
+{
+    const ChainBlock& own = chain.blocks.front();
+    RigidBlock block;
+    block.mass = own.mass;
+    block.added_mass = own.added_mass;
+    block.gravity = chain.gravity;
+    block.vertical_force = -own.force.y;
+    block.horizontal_force = own.force.x;
+    block.uplift = own.uplift;
+    block.cohesion_force = own.cohesion * own.length;
+    block.friction = own.friction;
+    block.base_inclination = own.dip;
+    return block;
+}
+
 SlipStages stages_of(const Scene& scene, const Seam& seam, std::optional<double> angle, double growth, const ChainOf& chain_of)
 {
     SlipStages stages;
     const std::vector<FrictionOverSlip::Piece> given = FrictionOverSlip(seam.strength).pieces();
+    const bool of_block = is_block(chain_of(angle, {}), seam);
     for (const Piece& piece : pieces_of(scene, seam)) {
         const Chain chain = chain_of(angle, piece.state);
         SlipStage stage;
         stage.from_slip = piece.from;
-        stage.block = chain_block(chain, chain_law(chain));
+        stage.block = of_block ? own_block(chain) : chain_block(chain, chain_law(chain));
         // The yield grows by κ per slip: as the weight of the block does, so by its friction.
         stage.block.friction += growth * piece.from / chain.gravity;
         stage.friction_slope = growth / chain.gravity;
         stages.push_back(stage);
     }
-    // Friction linear over the slip: between the laws at both ends of a piece, at rest vertically.
+    // Friction linear over the slip: between the laws at both ends of a piece.
     for (std::size_t i = 0; i + 1 < stages.size(); ++i) {
         const double length = stages[i + 1].from_slip - stages[i].from_slip;
         const auto piece = std::find_if(given.rbegin(), given.rend(), [&](const FrictionOverSlip::Piece& p) {
             return p.from_slip <= stages[i].from_slip;
         });
         if (length <= 0.0 || piece == given.rend() || piece->slope == 0.0) continue;
-        const double rise = yield_acceleration(stages[i + 1].block) - yield_acceleration(stages[i].block);
-        stages[i].friction_slope = rise / length / scene.gravity;
+        RigidBlock& block = stages[i].block;
+        const double rise = yield_acceleration(stages[i + 1].block) - yield_acceleration(block),
+                     more = stages[i + 1].block.friction - block.friction; // of the yield under a_v, over a_v
+        if (!of_block && more != 0.0) { // what of the weight the yield does not follow counts as uplift
+            block.uplift = block.mass * (scene.gravity - rise / more);
+            block.horizontal_force -= block.friction * block.uplift;
+        }
+        stages[i].friction_slope = more != 0.0 ? more / length : rise / length / scene.gravity;
     }
     if (stages.back().friction_slope != 0.0) {
         // The last stage may not go on for ever; the geometry is good for less than the length of the seam.

@@ -74,7 +74,7 @@ struct SeamPlane {
     std::vector<WedgeTrial> trials;  ///< by ascending angle: those given, or the scan of the search and its minima
     std::optional<double> angle;     ///< α of the least a_y [rad]
     bool at_end_of_range = false;    ///< the search found a least value at its end
-    bool wedge_left_out = false;     ///< no angle lets the wedge stand: the seam as if nothing were in front of it
+    bool wedge_left_out = false;     ///< the seam as if nothing were in front of it: no angle lets the wedge stand, or one given does not
     ChainStatus status = ChainStatus::stands; ///< at the yield
     SeamModel model;                          ///< at `angle`
     double yield = 0.0, yield_per_a_v = 0.0;  ///< a_y [m/s^2], da_y/da_v [-]
@@ -82,14 +82,15 @@ struct SeamPlane {
     Yield upstream{{std::numeric_limits<double>::infinity(), 0.0}, 0.0};
     double wedge_back = std::numeric_limits<double>::infinity(); ///< upstream yield of the wedge before a gap [m/s^2]
     double slip_factor = 1.0;    ///< H/M* [-]
-    double holding_friction = 0.0; ///< μ of the seam at which the static F is 1, at `angle` [-]
+    double holding_friction = 0.0; ///< μ of the seam at which the static F is 1 [-]; without states at `angle`
     double growth = 0.0;           ///< κ: of a_y over the slip, by the rock that crosses the interfaces [1/s^2]
     double valid_slip = 0.0;       ///< slip at which κ changes a_y by 5 % [m]; infinite without wedge
     double impact = 1.0;           ///< rate after over rate before, when the body meets the wedge again [-]
     ChainForces forces;            ///< at the yield
     std::vector<double> resultants; ///< distance of N from the upstream end of each segment over its length [-]; beyond 0 ... 1: tips
     std::vector<double> shares;     ///< of the resistance: segments, then interfaces [-]
-    SlipStages stages;              ///< for slide(), downstream only
+    bool of_block = false;          ///< one block without dilation: `stages` are its own, lift-off and both ways among them
+    SlipStages stages;              ///< for slide(), else downstream only
     /// For slide_seam(), both ways: friction that slopes by its mean over sixteenths. Of a body that would have to pull blocks upstream
     /// these are the wedge. Empty: locked.
     std::vector<SeamStage> bodies;

@@ -55,7 +55,7 @@ RigidModel model_of(const Scene& scene, const Seam& seam, KeptStatics& kept)
 {
     sliding::SeamPlane plane = sliding::seam_plane(scene, seam, {}, *kept.seams.get(scene, seam));
     RigidModel model =
-        plane_model(std::move(plane.stages), plane.model.chain.blocks[plane.model.chain.dam].length, 1.0, true);
+        plane_model(std::move(plane.stages), plane.model.chain.blocks[plane.model.chain.dam].length, 1.0, !plane.of_block);
     model.critical_friction = plane.holding_friction;
     add_bodies(plane, model);
     return model;

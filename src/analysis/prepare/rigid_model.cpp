@@ -106,9 +106,13 @@ GroundMotion amplified(GroundMotion motion, double by)
 /// Does the ground push a seam's body away from its wedge?
 bool moves_back(const Scene& scene, const RigidModel& model, const sliding::AccelRange& range, int polarity)
 {
-    if (!model.bodies || !scene.sliding.two_way) return false;
+    if (!model.bodies || !model.one_way || !scene.sliding.two_way) return false;
     const double back = -sliding::turned(range, polarity).h_min;
-    return back > std::min(model.upstream.law.at(range.v_min), model.upstream.law.at(range.v_max));
+    const auto below = [&](const sliding::Yield& upstream) {
+        return back > std::min(upstream.law.at(range.v_min), upstream.law.at(range.v_max));
+    };
+    const auto weaker = [&](const sliding::SeamStage& stage) { return below(sliding::yield_upstream_alone(stage.body)); };
+    return below(model.upstream) || std::any_of(model.bodies->begin() + 1, model.bodies->end(), weaker);
 }
 
 /// May its wedge run ahead of it?

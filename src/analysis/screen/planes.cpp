@@ -95,7 +95,7 @@ Sliding of_seam(sliding::SeamPlane& seam, std::size_t place)
 {
     const sliding::Chain& chain = seam.model.chain;
     Sliding s{plane_row(PlaneKind::seam, seam.name, place),
-              plane_model(std::move(seam.stages), chain.blocks[chain.dam].length, 1.0, true)};
+              plane_model(std::move(seam.stages), chain.blocks[chain.dam].length, 1.0, !seam.of_block)};
     for (const sliding::SeamFactor& factor : seam.factors) s.row.factors.push_back(finite(factor.factor));
     add_bodies(seam, s.model);
     s.row.angle = seam.angle;
@@ -126,8 +126,22 @@ void add_seam_warnings(const Scene& scene, const PlaneRow& row, const sliding::S
     const auto seam = std::find_if(scene.seams.begin(), scene.seams.end(), [&](const Seam& s) { return s.name == row.name; });
     if (plane.at_end_of_range)
         warn("the least value of its wedge lies at the end of seam.wedge.search_deg; a wider range may find a lower one.");
+    const auto falls = [](const sliding::WedgeTrial& trial) {
+        const auto stands = [](sliding::ChainStatus status) { return status == sliding::ChainStatus::stands; };
+        return !stands(trial.status) || !std::all_of(trial.statuses.begin(), trial.statuses.end(), stands);
+    };
+    const auto first = std::find_if(plane.trials.begin(), plane.trials.end(), falls);
     if (plane.wedge_left_out)
-        warn("no angle lets its wedge stand (its uplift carries it): computed as if nothing lay before the body.");
+        warn(fmt::format("{} its wedge stand (its uplift carries it, or the body would have to pull on it): computed as if nothing "
+                         "lay before the body.",
+                         std::all_of(plane.trials.begin(), plane.trials.end(), falls) ? "no angle lets" : "not all angles let"));
+    else if (first != plane.trials.end()) {
+        double without = infinite;
+        for (const sliding::SeamFactor& factor : plane.factors) without = std::min(without, factor.without_wedge);
+        warn(fmt::format("at some angles, such as {:.3g} degrees, its wedge does not stand (its uplift carries it, or the body would have "
+                         "to pull on it); they do not count. Without a wedge F is {:.4g}.",
+                         first->angle / units::degree, without));
+    }
     if (plane.status == sliding::ChainStatus::floats || plane.status == sliding::ChainStatus::opens)
         warn(fmt::format("at its yield a block {}: no PASS rests on it.", sliding::word(plane.status)));
     if (plane.status == sliding::ChainStatus::locked)
@@ -172,7 +186,9 @@ void add_work(const Scene& scene, Sliding& s, const std::vector<sliding::Skippin
                             plane.wedge_back < std::max(motion.whole().h_max, -motion.whole().h_min));
             if (!worst || work.slide.slide.max_slip > worst->slide.slide.max_slip) worst = std::move(work);
         }
-    if (pulls && scene.planes.wedge == PlaneWedge::held)
+    if (pulls && plane.model.chain.blocks.size() == 1)
+        warn("the motion lifts it off its plane, which its slip leaves out.");
+    else if (pulls && scene.planes.wedge == PlaneWedge::held)
         warn("as it slows down the dam would pull on its wedge or a block on its plane: planes.wedge = \"free\" lets the wedge run "
              "ahead.");
     else if (pulls)
