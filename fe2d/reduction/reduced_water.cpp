@@ -219,19 +219,17 @@ private:
 
     void project()
     {
-        const Index n = water_.unknowns(), momenta = water_.layer_momenta, pressures = n - momenta;
+        const Index n = water_.unknowns(), mesh = water_.mesh_unknowns, layers = n - mesh;
         const double middle = 0.5 * highest_;
-        const SparseMatrix of_pressures = water_.stiffness + middle * middle * water_.mass;
-        const auto basis_of = [&](const SparseMatrix& norm, Index first, Index count) {
-            MatrixXd part = MatrixXd::Zero(n, snapshots_.cols());
-            part.middleRows(first, count) = snapshots_.middleRows(first, count);
-            return MatrixXd(part * leading_directions(projected(norm, part), kept_));
-        };
-        const MatrixXd mesh = basis_of(of_pressures, 0, pressures),
-                       layers = momenta > 0 ? basis_of(-middle * water_.damping, pressures, momenta) : MatrixXd(n, 0);
-        momenta_ = layers.cols();
-        basis_.resize(n, mesh.cols() + layers.cols());
-        basis_ << mesh, layers;
+        const SparseMatrix norm = water_.stiffness + middle * middle * water_.mass;
+        MatrixXd of_mesh = MatrixXd::Zero(n, snapshots_.cols());
+        of_mesh.topRows(mesh) = snapshots_.topRows(mesh);
+        of_mesh = (of_mesh * leading_directions(projected(norm, of_mesh), kept_)).eval();
+        basis_ = MatrixXd::Zero(n, of_mesh.cols() + layers);
+        basis_.leftCols(of_mesh.cols()) = of_mesh;
+        basis_.bottomRightCorner(layers, layers).setIdentity();
+        layers_ = layers;
+        fprintf(stderr, "mesh %d shapes %d layers p %d w %d\n", int(mesh), int(of_mesh.cols()), int(water_.layer_pressures), int(water_.layer_momenta));
         mass_ = projected(water_.mass, basis_);
         damping_ = projected(water_.damping, basis_);
         stiffness_ = projected(water_.stiffness, basis_);
@@ -271,7 +269,7 @@ private:
         const MatrixXd felt = s * on_seen(basis_);
         result.face = felt.topRows(static_cast<Index>(wet_.size()));
         result.floor = felt.bottomRows(static_cast<Index>(water_.floor.size()));
-        result.momenta = momenta_;
+        result.layers = layers_;
         return result;
     }
 
@@ -284,7 +282,7 @@ private:
     MatrixXd loads_, trials_; ///< on all unknowns of the water
     std::vector<double> frequencies_;
     MatrixXd snapshots_, basis_, mass_, damping_, stiffness_;
-    Index momenta_ = 0;
+    Index layers_ = 0;
     std::vector<Check> checks_;
 };
 

@@ -29,11 +29,11 @@ struct ReducedWater {
     Eigen::VectorXd velocity_x, velocity_y, displacement_y; ///< loads per ground velocity and displacement
     Eigen::MatrixXd face;     ///< s V on face_pressures(): what pressure each shape's rate is there [Pa s/m]
     Eigen::MatrixXd floor;    ///< s V on FluidModel::floor; without rows: the floor is not the rock's
-    Eigen::Index momenta = 0; ///< the last of the shapes are momenta, without mass
+    Eigen::Index layers = 0;  ///< the last of the shapes, those of an absorbing end: they meet neither dam nor floor
     ReductionReport report;
 
     Eigen::Index count() const { return mass.rows(); }
-    Eigen::Index pressures() const { return count() - momenta; }
+    Eigen::Index pressures() const { return count() - layers; } ///< of the mesh, with mass
     /// A reduction that missed its gate says here how far it errs, what is allowed and what the user can do.
     Note missed_gate() const;
 };
