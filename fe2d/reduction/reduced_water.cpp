@@ -5,7 +5,10 @@
 #include "fe2d/rock/frequency_solver.hpp"
 #include "fe2d/rock/reduce_rock.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -65,6 +68,7 @@ public:
             project();
             ++rounds;
             const Check& worst = check();
+            fprintf(stderr,"round %d error %g\n",rounds,error_);
             if (error_ <= options_.wanted || rounds == options_.largest_rounds) break;
             if (worst.frequency != added) {
                 added = worst.frequency;
@@ -219,20 +223,81 @@ private:
 
     void project()
     {
-        const Index n = water_.unknowns(), mesh = water_.mesh_unknowns, layers = n - mesh;
+        const Index n = water_.unknowns(), mesh = water_.mesh_unknowns;
         const double middle = 0.5 * highest_;
         const SparseMatrix norm = water_.stiffness + middle * middle * water_.mass;
-        MatrixXd of_mesh = MatrixXd::Zero(n, snapshots_.cols());
-        of_mesh.topRows(mesh) = snapshots_.topRows(mesh);
-        of_mesh = (of_mesh * leading_directions(projected(norm, of_mesh), kept_)).eval();
-        basis_ = MatrixXd::Zero(n, of_mesh.cols() + layers);
-        basis_.leftCols(of_mesh.cols()) = of_mesh;
-        basis_.bottomRightCorner(layers, layers).setIdentity();
-        layers_ = layers;
-        fprintf(stderr, "mesh %d shapes %d layers p %d w %d\n", int(mesh), int(of_mesh.cols()), int(water_.layer_pressures), int(water_.layer_momenta));
+        basis_ = MatrixXd::Zero(n, snapshots_.cols());
+        basis_.topRows(mesh) = snapshots_.topRows(mesh);
+        basis_ = (basis_ * leading_directions(projected(norm, basis_), kept_)).eval();
+        if (water_.layer_pressures > 0) add_layers(norm);
         mass_ = projected(water_.mass, basis_);
         damping_ = projected(water_.damping, basis_);
         stiffness_ = projected(water_.stiffness, basis_);
+    }
+
+    /// The channel beyond an absorbing end is passive as a whole only, as one built of some depth column. So the column is reduced: the
+    /// same few shapes W over the depth for all layers and for the trace of the mesh's shapes on the end. Its momenta are ΔW over the
+    /// heights of the elements, since the layer's own are β/(sρh) Δq.
+    void add_layers(const SparseMatrix& norm)
+    {
+        const ReservoirMesh& r = water_.reservoir;
+        std::vector<Index> end; // unknowns of the column
+        std::vector<int> place; // of a node among them; -1: p = 0
+        for (const int node : r.far_end) {
+            const int unknown = water_.dofs(node);
+            place.push_back(unknown == no_dof ? -1 : static_cast<int>(end.size()));
+            if (unknown != no_dof) end.push_back(unknown);
+        }
+        const auto count = static_cast<Index>(end.size()), elements = static_cast<Index>(place.size()) - 1,
+                   layers = water_.layer_pressures / count, with_momenta = water_.layer_momenta / elements;
+        MatrixXd of_end(count, count);
+        for (Index i = 0; i < count; ++i)
+            for (Index j = 0; j < count; ++j)
+                of_end(i, j) = norm.coeff(end[static_cast<std::size_t>(i)], end[static_cast<std::size_t>(j)]);
+        MatrixXd columns(count, snapshots_.cols() * (layers + 1));
+        columns.leftCols(snapshots_.cols()) = snapshots_(end, Eigen::all);
+        for (Index layer = 0; layer < layers; ++layer)
+            columns.middleCols((layer + 1) * snapshots_.cols(), snapshots_.cols()) =
+                snapshots_.middleRows(water_.mesh_unknowns + layer * count, count);
+        const MatrixXd shapes = column_shapes(of_end, columns); // W
+
+        MatrixXd differences = MatrixXd::Zero(elements, shapes.cols());
+        for (Index e = 0; e < elements; ++e) {
+            const auto k = static_cast<std::size_t>(e);
+            if (place[k] >= 0) differences.row(e) += shapes.row(place[k]);
+            if (place[k + 1] >= 0) differences.row(e) -= shapes.row(place[k + 1]);
+            differences.row(e) /= r.mesh.nodes[r.far_end[k]].y - r.mesh.nodes[r.far_end[k + 1]].y;
+        }
+        Eigen::ColPivHouseholderQR<MatrixXd> qr(differences);
+        qr.setThreshold(1e-10);
+        const MatrixXd momenta = qr.householderQ() * MatrixXd::Identity(elements, qr.rank());
+
+        const Index of_mesh = basis_.cols();
+        basis_(end, Eigen::all) = (shapes * (shapes.transpose() * (of_end * basis_(end, Eigen::all)))).eval();
+        layers_ = layers * shapes.cols() + with_momenta * momenta.cols();
+        basis_.conservativeResizeLike(MatrixXd::Zero(basis_.rows(), of_mesh + layers_));
+        Index row = water_.mesh_unknowns, column = of_mesh;
+        const auto put = [&](const MatrixXd& part) {
+            basis_.block(row, column, part.rows(), part.cols()) = part;
+            row += part.rows();
+            column += part.cols();
+        };
+        for (Index layer = 0; layer < layers; ++layer) put(shapes);
+        for (Index layer = 0; layer < with_momenta; ++layer) put(momenta);
+        fprintf(stderr, "mesh shapes %d, column %d of %d, layers %d\n", int(of_mesh), int(shapes.cols()), int(count), int(layers_));
+    }
+
+    /// Shapes over the depth, orthonormal in the norm of the end, that leave less than kept_ of each column.
+    MatrixXd column_shapes(const MatrixXd& norm, const MatrixXd& columns) const
+    {
+        const Eigen::LLT<MatrixXd> llt(norm);
+        const MatrixXd scaled = llt.matrixU() * columns;
+        const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled * scaled.transpose());
+        VectorXd left = scaled.colwise().squaredNorm();
+        Index count = 0;
+        for (; count < norm.rows() && left.maxCoeff() > kept_; ++count)
+            left -= (eigen.eigenvectors().col(norm.rows() - 1 - count).transpose() * scaled).cwiseAbs2().transpose();
+        return llt.matrixU().solve(eigen.eigenvectors().rightCols(count));
     }
 
     /// @returns the worst; error_ is its error
