@@ -5,6 +5,7 @@
 #include "fe2d/run/earthquake_pass.hpp"
 #include "fe2d/run/slide_watch.hpp"
 #include "fe2d/run/step_error.hpp"
+#include "scene/section.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -297,7 +298,8 @@ ReducedState ReducedRun::shake(const Motion& motion, const ReducedModel& model, 
             result.status = Status::interrupted;
             break;
         }
-        if (!std::isfinite(dynamics.kinetic())) {
+        // Deformed by its own height it is no dam any more.
+        if (!(std::abs(dynamics.crest() - dynamics.mean_slip()) < crest_level(scene_.section))) {
             result.status = Status::diverged;
             break;
         }

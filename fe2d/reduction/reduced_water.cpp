@@ -68,7 +68,6 @@ public:
             project();
             ++rounds;
             const Check& worst = check();
-            fprintf(stderr,"round %d error %g\n",rounds,error_);
             if (error_ <= options_.wanted || rounds == options_.largest_rounds) break;
             if (worst.frequency != added) {
                 added = worst.frequency;
@@ -284,7 +283,6 @@ private:
         };
         for (Index layer = 0; layer < layers; ++layer) put(shapes);
         for (Index layer = 0; layer < with_momenta; ++layer) put(momenta);
-        fprintf(stderr, "mesh shapes %d, column %d of %d, layers %d\n", int(of_mesh), int(shapes.cols()), int(count), int(layers_));
     }
 
     /// Shapes over the depth, orthonormal in the norm of the end, that leave less than kept_ of each column.

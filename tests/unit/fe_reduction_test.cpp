@@ -8,7 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
 #include <cmath>
+#include <complex>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -192,26 +196,34 @@ TEST(FeReduction, acoustic_water_whose_floor_is_the_rock)
     expect_slips_of_full_runs(scene);
 }
 
-// Energy may leave the reduced water and never comes: all its matrices have the signs of the water's own.
+// Energy may leave the reduced water and never comes: the pressures that a moving face finds, -iω s²Hᵀ V (...)⁻¹ Vᵀ H on the face's
+// own unknowns, have a real part without negative values at every frequency. Pressures and momenta of the layers reduced each by
+// itself gave -1e-3 to -1e-2 of the largest, and dams that flew away.
 TEST(FeReduction, reduced_water_is_passive)
 {
-    const Scene scene = wet_dam(0.75);
-    const EarthquakeRun full(scene, options_of(scene));
-    const DamModes modes = dam_modes(full.structure(), 12);
-    const ReducedWater water = reduce_water(*full.water(), modes.face, 160.0);
-    EXPECT_TRUE(water.report.passed()) << text_of(water.missed_gate());
-    EXPECT_LT(water.count(), water.report.unknowns / 3);
-    const Eigen::Index p = water.pressures(), w = water.momenta;
-    EXPECT_GT(w, 0);
-    const auto least = [](const Eigen::MatrixXd& m) {
-        const VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m).eigenvalues();
-        return values[0] / values[values.size() - 1];
-    };
-    EXPECT_GT(least(-water.mass.topLeftCorner(p, p)), 1e-12);
-    EXPECT_GT(least(-water.stiffness.topLeftCorner(p, p)), 1e-12);
-    EXPECT_GT(least(-water.damping.topLeftCorner(p, p)), -1e-12);
-    EXPECT_GT(least(water.damping.bottomRightCorner(w, w)), 1e-12);
-    EXPECT_EQ(water.mass.bottomRightCorner(w, w).norm(), 0.0);
+    for (const double reflection : {1.0, 0.75, 0.2}) {
+        Scene scene = wet_dam(0.75);
+        scene.reservoir->bottom_reflection = reflection;
+        const EarthquakeRun full(scene, options_of(scene));
+        const DamModes modes = dam_modes(full.structure(), 12);
+        const ReducedWater water = reduce_water(*full.water(), modes.face, 160.0);
+        EXPECT_TRUE(water.report.passed()) << text_of(water.missed_gate());
+        EXPECT_LT(water.count(), water.report.unknowns / 2);
+        EXPECT_GT(water.layers, 0);
+        EXPECT_EQ(water.face.rightCols(water.layers).norm(), 0.0);
+        const Eigen::MatrixXcd shapes = modes.face * water.face;
+        double largest = 0.0, least = 0.0;
+        for (double omega = 2.0; omega < 3000.0; omega *= 1.03) {
+            const std::complex<double> s(0.0, omega);
+            const Eigen::MatrixXcd matrix = water.stiffness + s * water.damping + (s * s) * water.mass,
+                                   impedance = -s * shapes * matrix.partialPivLu().solve(shapes.transpose()),
+                                   loss = 0.5 * (impedance + impedance.adjoint());
+            const VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd>(loss).eigenvalues();
+            largest = std::max(largest, impedance.norm());
+            least = std::min(least, values[0]);
+        }
+        EXPECT_GT(least, -1e-8 * largest) << reflection;
+    }
 }
 
 // A gate that no basis meets: the report says so, with what to do.
