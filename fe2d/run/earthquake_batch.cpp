@@ -529,11 +529,12 @@ void EarthquakeRun::refine(int halvings, std::span<BatchedRun* const> batch) con
         for (std::size_t k = 0; k < batched.result.lifts.size(); ++k)
             batched.result.lifts[k].slip_error = step_error(batched.slips[k + 1], order);
         double excess = 0.0; // error over what is allowed, the largest of all planes; one that is no number halves nothing
-        excess = std::max(excess, batched.result.slip_error /
-                                      allowed_error(scene_, options_, batched.result.slip, batched.result.max_slip));
+        const double least = batched.result.least_slip_of_planes();
+        excess = std::max(excess, batched.result.slip_error / allowed_error(scene_, options_, batched.result.slip,
+                                                                            std::max(least, batched.result.max_slip)));
         for (const LiftResult& lift : batched.result.lifts)
             excess = std::max(excess, lift.slip_error / (scene_.time.slip_tolerance *
-                                                         std::max(lift.largest_slip, options_.smallest_slip)));
+                                                         std::max({lift.largest_slip, least, options_.smallest_slip})));
         if (batched.result.status == Status::left_plane || excess <= 1.0) continue;
         if (was_self_excited && batched.result.status == Status::self_excited)
             continue; // both agree; there is no slip to refine

@@ -331,10 +331,18 @@ std::vector<Note> EarthquakeRun::runs_away(const RunResult& result) const
     return notes;
 }
 
+double RunResult::least_slip_of_planes() const
+{
+    double largest = max_slip;
+    for (const LiftResult& lift : lifts) largest = std::max(largest, lift.largest_slip);
+    return 0.01 * largest;
+}
+
 /// What of the slip the step leaves open, of the plane where that is most against what time.slip_tolerance allows.
 Note EarthquakeRun::missed_tolerance(const RunResult& result) const
 {
-    const auto excess = [&](double slip, double error) { return error / std::max(slip, options_.smallest_slip); };
+    const double least = result.least_slip_of_planes();
+    const auto excess = [&](double slip, double error) { return error / std::max({slip, least, options_.smallest_slip}); };
     std::string where = "base";
     double slip = result.max_slip, error = result.slip_error;
     for (const LiftResult& lift : result.lifts)

@@ -138,6 +138,8 @@ struct RunResult {
 
     /// The static state from which the last record starts. @pre some stage was solved
     const StageResult& rest() const { return between.empty() ? stages.back() : between.back(); }
+    /// Slips of single planes below it are measured against it: a hundredth of the largest slip of all planes [m].
+    double least_slip_of_planes() const;
 };
 
 /// The steps of a run as another run chose them.

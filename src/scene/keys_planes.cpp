@@ -95,8 +95,7 @@ std::vector<std::pair<std::string, UpliftModel>> seam_uplifts()
     return {{"none", UpliftModel::none},
             {"linear", UpliftModel::linear},
             {"drains", UpliftModel::drains},
-            {"points", UpliftModel::points},
-            {"seepage", UpliftModel::seepage}};
+            {"points", UpliftModel::points}};
 }
 
 KeyGroup seam_group(const std::vector<Key>& contact)
@@ -130,8 +129,8 @@ KeyGroup seam_group(const std::vector<Key>& contact)
                                                                             {"wedge", SeamExit::wedge},
                                                                             {"free-face", SeamExit::free_face}})),
         word("uplift", "drains with [drains], else linear",
-             "water pressure along the path: none, linear in head from entry to exit, drains (those of [drains]), "
-             "points, seepage",
+             "water pressure along the path: none, linear in head from entry to exit, drains (those of [drains]) or "
+             "points",
              "\"linear\"", choice(&S::uplift, seam_uplifts())),
         pairs("uplift_points", length, none, Range::between(0, 2), "none",
               "uplift points: distance along the path, pressure over that at its entry", "[[0, 1], [45, 0.2]]",

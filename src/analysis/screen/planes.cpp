@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <limits>
 
 namespace damslip {
@@ -57,6 +58,25 @@ std::vector<PlaneState> plane_states(const Scene& scene, const std::vector<slidi
     std::vector<PlaneState> states{still ? state(*still) : PlaneState{{"static"}, {}, {}}};
     if (shaken) states.push_back(state(*shaken));
     return states;
+}
+
+/// Of the scene's load combinations those that say more of a state than k_h and k_v, which lifts and seams do not follow.
+std::vector<std::string> of_base_alone(const Scene& scene)
+{
+    const auto more = [&](const Combination& c) {
+        const double factors[]{c.weight_factor, c.water_factor, c.uplift_factor, c.silt_factor, c.ice_factor, c.friction_divisor,
+                               c.cohesion_divisor};
+        const auto other = [](const std::optional<double>& level, const auto& water) {
+            return level && (!water || *level != water->level);
+        };
+        return !c.drains_effective || !c.curtain_intact || c.residual_strength || c.gates_open || c.friction || c.cohesion ||
+               !c.k_profile.empty() || other(c.reservoir_level, scene.reservoir) || other(c.tailwater_level, scene.tailwater) ||
+               std::any_of(std::begin(factors), std::end(factors), [](double factor) { return factor != 1.0; });
+    };
+    std::vector<std::string> names;
+    for (const Combination& c : scene.combinations)
+        if (c.kind != CombinationKind::post_seismic && more(c)) names.push_back(fmt::format("\"{}\"", c.name));
+    return names;
 }
 
 std::optional<double> finite(double x)
@@ -284,6 +304,11 @@ Planes find_planes(const Ready& ready, const std::vector<sliding::Equilibrium>& 
     scene.lift_joints = ready.given.lift_joints; // the plan of the rigid block leaves them out: they replace lifts
     if (!scene.lifts && scene.seams.empty()) return planes;
     planes.states = plane_states(scene, combinations);
+    if (const std::vector<std::string> names = of_base_alone(scene); !names.empty())
+        planes.warnings.push_back(fmt::format(
+            "load combinations {}: their own water, drains, factors and strengths are of the base alone; lifts and seams are "
+            "judged with k_h, k_v and the loads and strengths of the scene.",
+            fmt::join(names, ", ")));
     std::vector<sliding::GroundState> grounds;
     for (const PlaneState& state : planes.states) grounds.push_back(state.ground);
 
