@@ -137,6 +137,21 @@ double joint_peak(const sliding::LiftPlane& lift, const RigidModel& model, const
     return peak;
 }
 
+bool stands(sliding::ChainStatus status)
+{
+    return status == sliding::ChainStatus::stands;
+}
+
+/// Does the wedge fall at an angle next to that of the k-th factor?
+bool beside_one_that_falls(const sliding::SeamPlane& plane, std::size_t k)
+{
+    const auto here = std::find_if(plane.trials.begin(), plane.trials.end(),
+                                   [&](const sliding::WedgeTrial& trial) { return trial.angle == plane.factors[k].angle; });
+    if (here == plane.trials.end()) return false;
+    return (here != plane.trials.begin() && !stands(std::prev(here)->statuses[k])) ||
+           (std::next(here) != plane.trials.end() && !stands(std::next(here)->statuses[k]));
+}
+
 void add_seam_warnings(const Scene& scene, const PlaneRow& row, const sliding::SeamPlane& plane,
                        std::vector<std::string>& warnings)
 {
@@ -146,22 +161,17 @@ void add_seam_warnings(const Scene& scene, const PlaneRow& row, const sliding::S
     const auto seam = std::find_if(scene.seams.begin(), scene.seams.end(), [&](const Seam& s) { return s.name == row.name; });
     if (plane.at_end_of_range)
         warn("the least value of its wedge lies at the end of seam.wedge.search_deg; a wider range may find a lower one.");
-    const auto falls = [](const sliding::WedgeTrial& trial) {
-        const auto stands = [](sliding::ChainStatus status) { return status == sliding::ChainStatus::stands; };
-        return !stands(trial.status) || !std::all_of(trial.statuses.begin(), trial.statuses.end(), stands);
-    };
-    const auto first = std::find_if(plane.trials.begin(), plane.trials.end(), falls);
     if (plane.wedge_left_out)
         warn(fmt::format("{} its wedge stand (its uplift carries it, or the body would have to pull on it): computed as if nothing "
                          "lay before the body.",
-                         std::all_of(plane.trials.begin(), plane.trials.end(), falls) ? "no angle lets" : "not all angles let"));
-    else if (first != plane.trials.end()) {
-        double without = infinite;
-        for (const sliding::SeamFactor& factor : plane.factors) without = std::min(without, factor.without_wedge);
-        warn(fmt::format("at some angles, such as {:.3g} degrees, its wedge does not stand (its uplift carries it, or the body would have "
-                         "to pull on it); they do not count. Without a wedge F is {:.4g}.",
-                         first->angle / units::degree, without));
-    }
+                         std::any_of(plane.trials.begin(), plane.trials.end(), [](const auto& t) { return stands(t.status); })
+                             ? "not all angles let"
+                             : "no angle lets"));
+    for (std::size_t k = 0; k < plane.factors.size(); ++k)
+        if (beside_one_that_falls(plane, k))
+            warn(fmt::format("the least factor {:.4g} is that of the last angle at which its wedge stands, {:.3g} degrees; at other "
+                             "angles its uplift carries it, or the body would have to pull on it. Without a wedge it is {:.4g}.",
+                             plane.factors[k].factor, *plane.factors[k].angle / units::degree, plane.factors[k].without_wedge));
     if (plane.status == sliding::ChainStatus::floats || plane.status == sliding::ChainStatus::opens)
         warn(fmt::format("at its yield a block {}: no PASS rests on it.", sliding::word(plane.status)));
     if (plane.status == sliding::ChainStatus::locked)
