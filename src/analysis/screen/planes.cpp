@@ -216,9 +216,8 @@ void add_work(const Scene& scene, Sliding& s, const std::vector<sliding::Skippin
                             plane.wedge_back < std::max(motion.whole().h_max, -motion.whole().h_min));
             if (!worst || work.slide.slide.max_slip > worst->slide.slide.max_slip) worst = std::move(work);
         }
-    if (pulls && plane.model.chain.blocks.size() == 1)
-        warn("the motion lifts it off its plane, which its slip leaves out.");
-    else if (pulls && scene.planes.wedge == PlaneWedge::held)
+    if (pulls && plane.of_block) return; // it lifts off, which the works do not follow
+    if (pulls && scene.planes.wedge == PlaneWedge::held)
         warn("as it slows down the dam would pull on its wedge or a block on its plane: planes.wedge = \"free\" lets the wedge run "
              "ahead.");
     else if (pulls)
