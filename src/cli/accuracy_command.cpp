@@ -358,15 +358,9 @@ int accuracy_of_probability(const AccuracyArguments& a, const Streams& streams)
     options.jobs = a.jobs;
     TerminalWatch watch(streams);
     const IntervalCost cost = interval_cost(study.input, study.suite, text, study.written, options, watch);
-    const IntervalCostView view{study.scene,
-                                cost,
-                                *study.suite.pairs,
-                                study.input.intensity.text,
-                                study.input.intensity.level_unit,
-                                study.input.intensity.level_unit_text};
-    const Answer answer = interval_cost_answer(view);
+    const Answer answer = interval_cost_answer(study, cost);
     put_answer(answer, "--out DIR", streams);
-    const auto page = [&] { return page_html(interval_cost_page(view)); };
+    const auto page = [&] { return page_html(interval_cost_page(study, cost)); };
     if (!a.out.empty()) {
         answer.write(a.out, {fmt::format("scene {}", study.scene.file.string())});
         write_file(a.out / "report.html", page());

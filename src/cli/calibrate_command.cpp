@@ -3,7 +3,7 @@
 #include "core/file.hpp"
 #include "core/status.hpp"
 #include "core/text.hpp"
-#include "pages/modes/calibrate_page.hpp"
+#include "pages/modes/modes_pages.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

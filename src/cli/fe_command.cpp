@@ -122,8 +122,7 @@ int run_contact(const FeArguments& arguments, const Ready& prepared, const Spect
             instants.push_back(worst_instant(r, base_strength(ready.scene)));
         keep_contact_run(arguments.out, shared, r, fields);
         if (page) page->add(r, motion);
-        if (const std::string series = write_frames(arguments.out, {ready.scene, model, all.uplift()}, r);
-            !series.empty() && !streams.quiet)
+        if (const std::string series = write_frames(arguments.out, shared, r); !series.empty() && !streams.quiet)
             streams.talk << "for ParaView: " << (arguments.out / series).string() << "\n";
         r.fe.history.by_pair = {};
         r.fe.history.frames = {};

@@ -9,7 +9,6 @@
 #include "core/parallel.hpp"
 #include "core/watch.hpp"
 #include "pages/fragility/fragility_pages.hpp"
-#include "pages/report/csv_lines.hpp"
 #include "pages/report/page.hpp"
 #include "pages/report/table_text.hpp"
 
@@ -197,7 +196,7 @@ int finish_fragility(const FragilityArguments& a, const FragilityStudy& study, c
 {
     const FragilityExtras extras{static_cast<std::size_t>(a.rows), a.jobs};
     const FragilityAnswer answer = answer_fragility(study, plan, runs, extras, watch, conditioned);
-    const FragilityView view = view_of(study, plan, runs, answer);
+    const FragilityView view{study, plan, runs, answer};
     const Answer shown = fragility_answer(view);
     put_answer(shown, "--out DIR", streams);
     if (!a.out.empty()) write_files(a.out, view, shown, fragility_identity(plan, study.text, study.method.id));

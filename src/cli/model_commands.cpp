@@ -12,7 +12,7 @@
 #include "fe2d/mesh/import_mesh.hpp"
 #include "fe2d/mesh/mesh.hpp"
 #include "pages/fe/fe_pages.hpp"
-#include "pages/modes/modes_page.hpp"
+#include "pages/modes/modes_pages.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
 #include "records/generate/target_spectrum.hpp"

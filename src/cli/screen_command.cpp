@@ -10,8 +10,7 @@
 #include "core/status.hpp"
 #include "core/text.hpp"
 #include "core/units.hpp"
-#include "pages/assess/assess_report.hpp"
-#include "pages/assess/work_plan_page.hpp"
+#include "pages/assess/assess_pages.hpp"
 #include "pages/report/json.hpp"
 #include "pages/report/page.hpp"
 #include "pages/report/table_text.hpp"
@@ -96,7 +95,7 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
                          << "scene.resolved.toml\nreport: " << (arguments.out / "report.html").string() << "\n";
     }
     if (!arguments.pdf.empty()) {
-        print_pdf(screen_report(in), arguments.pdf);
+        print_pdf(page_html(screen_page(in)), arguments.pdf);
         name_report(arguments.pdf, streams);
     }
     if (!arguments.sheet.empty()) {

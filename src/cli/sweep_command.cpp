@@ -8,7 +8,6 @@
 #include "cli/verifier.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
-#include "pages/report/csv_lines.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/sweep/sweep_pages.hpp"
 #include "scene/plausible.hpp"
@@ -74,7 +73,7 @@ constexpr std::size_t drawn_rows = 50'000;      ///< of a sweep of more rows onl
 /// The report beside the table (results.csv -> results.html), and on paper, as asked for.
 void put_pages(const SweepArguments& arguments, const SweepReportInput& in, const Streams& streams)
 {
-    const std::string html = sweep_report(in);
+    const std::string html = page_html(sweep_page(in));
     if (!arguments.out.empty()) {
         std::filesystem::path page = arguments.out;
         page.replace_extension(".html");
@@ -228,7 +227,7 @@ void talk_of_damage(const ResultStore& store, const Streams& streams)
 void talk_of_answers(const SweepView& view, const SweepOutcome& outcome, const Streams& streams)
 {
     if (outcome.all_good() && !outcome.fe) return;
-    if (const std::string words = unanswered_words(view); !words.empty()) streams.talk << words << "\n";
+    if (const std::string words = view.unanswered.words(); !words.empty()) streams.talk << words << "\n";
     if (outcome.fe)
         for (const std::string& failure : outcome.fe->failures) streams.talk << "not resolved: " << failure << "\n";
     if (const std::string words = unknown_error_words(view); !words.empty() && !streams.quiet)

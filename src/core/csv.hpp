@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -92,6 +93,23 @@ inline Cell count_cell(std::size_t n)
     return static_cast<std::int64_t>(n);
 }
 
+/// A value of any kind; nothing for an optional without one.
+template <class Value>
+Cell cell_of(Value&& value)
+{
+    using Plain = std::remove_cvref_t<Value>;
+    if constexpr (std::is_same_v<Plain, Cell>)
+        return std::forward<Value>(value);
+    else if constexpr (std::is_convertible_v<Plain, std::string_view>)
+        return std::string(std::forward<Value>(value));
+    else if constexpr (std::is_integral_v<Plain> && !std::is_same_v<Plain, bool>)
+        return static_cast<std::int64_t>(value);
+    else if constexpr (requires { value.has_value(); })
+        return value ? cell_of(*value) : Cell();
+    else
+        return value;
+}
+
 /// Results by name and unit; made by the modules' callers, rendered by pages/.
 struct Table {
     std::string title;
@@ -100,11 +118,27 @@ struct Table {
     std::vector<std::string> notes;      ///< sentences printed under the table
 };
 
-/// A column, and how an item's value in it is read: a getter, or a member of the item.
+/// A column, and how an item's value in it is read.
 template <class Item>
 struct ColumnOf {
     Column column;
     std::function<Cell(const Item&)> value;
+
+    /// @param get  a getter, or a member of the item
+    template <class Get>
+    ColumnOf(Column column, Get get)
+        : column(std::move(column)), value([get](const Item& item) { return cell_of(std::invoke(get, item)); })
+    {
+    }
+
+    /// @param get  of a number, or an optional one, in SI @param unit  of the column
+    template <class Get>
+    ColumnOf(Column column, Get get, double unit)
+        : column(std::move(column)), value([get, unit](const Item& item) {
+              return optional_cell(std::optional<double>(std::invoke(get, item)), unit);
+          })
+    {
+    }
 };
 
 /// One row per item: the columns are written once, for terminal, report, CSV and JSON.

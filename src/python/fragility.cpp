@@ -27,7 +27,7 @@ struct FragilityResult final : Result {
     std::vector<FragilitySample> samples; ///< of the plan, for arrays to lie on
     std::vector<double> slip, max_slip;   ///< of each run [m]; NaN: none
 
-    pages::FragilityView view() const { return pages::view_of(*study, plan, runs, estimated); }
+    pages::FragilityView view() const { return {*study, plan, runs, estimated}; }
 
     pages::Answer answer() const override { return pages::fragility_answer(view()); }
     std::vector<std::pair<std::string, Table>> tables() const override

@@ -5,7 +5,7 @@
 
 #include "analysis/modes/modes.hpp"
 #include "core/input_error.hpp"
-#include "pages/modes/modes_page.hpp"
+#include "pages/modes/modes_pages.hpp"
 
 #include <nlohmann/json.hpp>
 

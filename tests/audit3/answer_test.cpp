@@ -1,6 +1,6 @@
 // The same question gets the same answer from every command: polarities, the state after the earthquake, interrupts, budgets.
 #include "analysis/assess/assess.hpp"
-#include "pages/assess/assess_report.hpp"
+#include "pages/assess/assess_pages.hpp"
 #include "pages/fe/fe_pages.hpp"
 #include "program_answer.hpp"
 #include "scene/read.hpp"

@@ -1,6 +1,6 @@
 // Audit 3, C, "Report": what a page shows first, and in which words.
 #include "pages/accuracy/accuracy_pages.hpp"
-#include "pages/assess/assess_report.hpp"
+#include "pages/assess/assess_pages.hpp"
 #include "pages/fe/fe_pages.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
@@ -121,7 +121,8 @@ TEST(Audit3, C_ChecksAreOneMatrix)
     }
     for (const std::size_t i : {1, 2}) EXPECT_EQ(matrix.rows[i][3], Cell()); // no criterion
     for (const std::string& note : matrix.notes) EXPECT_FALSE(has(note, "Required by")) << note; // but by the scene
-    const std::string html = pages::screen_report({given, ready.scene, run_screening(ready, 1), ready.records(), 1});
+    const std::string html =
+        pages::page_html(pages::screen_page({given, ready.scene, run_screening(ready, 1), ready.records(), 1}));
     EXPECT_TRUE(has(html, "<td class=\"fail\">FAIL "));
     EXPECT_LT(html.find("Load combinations: value / required"), html.find("Quantities of each combination"));
     const std::string out = answer_of({"screen", f.dam(0.9, cadam)}).out;
@@ -133,7 +134,8 @@ TEST(Audit3, C_VerdictIsTheSecondColumn)
     const Folder f;
     const Scene given = read_scene(f.dam(0.9));
     const Ready ready = prepare(given, Method::rigid_block);
-    const std::string html = pages::screen_report({given, ready.scene, run_screening(ready, 1), ready.records(), 1});
+    const std::string html =
+        pages::page_html(pages::screen_page({given, ready.scene, run_screening(ready, 1), ready.records(), 1}));
     EXPECT_TRUE(has(html, "<th scope=\"col\">record</th><th scope=\"col\">verdict</th>"));
 }
 

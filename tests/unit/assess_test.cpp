@@ -1,5 +1,5 @@
 #include "analysis/assess/assess.hpp"
-#include "pages/assess/assess_report.hpp"
+#include "pages/assess/assess_pages.hpp"
 #include "program_answer.hpp"
 #include "scene/read.hpp"
 #include "source_dir.hpp"

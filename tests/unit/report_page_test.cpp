@@ -107,12 +107,12 @@ TEST(ReportPage, DefinitionsStandBelowTheirTable)
 
 TEST(ReportPage, TheEmbeddedScriptsEndWhereTheyShould)
 {
-    EXPECT_EQ(uplot_script().find("</script"), std::string_view::npos);
-    for (const std::string_view script : {page_script(), state_map_script(), mesh_view_script()})
+    EXPECT_EQ(assets().uplot_script.find("</script"), std::string_view::npos);
+    for (const std::string_view script : {assets().page_script, assets().state_map_script, assets().mesh_view_script})
         EXPECT_EQ(script.find("</script"), std::string_view::npos);
-    EXPECT_EQ(uplot_license().find("*/"), std::string_view::npos);
-    EXPECT_EQ(page_style().find("</style"), std::string_view::npos);
-    EXPECT_EQ(uplot_style().find("</style"), std::string_view::npos);
+    EXPECT_EQ(assets().uplot_license.find("*/"), std::string_view::npos);
+    EXPECT_EQ(assets().page_style.find("</style"), std::string_view::npos);
+    EXPECT_EQ(assets().uplot_style.find("</style"), std::string_view::npos);
 }
 
 TEST(ReportPage, NothingIsLoadedFromAnywhere)
@@ -161,12 +161,12 @@ TEST(ReportPage, VendoredFilesAreThoseOfTheirChecksums)
     }
     EXPECT_EQ(n, 4u);
     // uPlot 1.6.32 as published; what is in the program is what is in the folder.
-    EXPECT_EQ(sha256(uplot_script()), "19c8d4c6ad88929a79f4ae49d6f7161566dfd0ba3d15cc495e974f787eb78f1f");
-    EXPECT_EQ(sha256(uplot_style()), "df630c6a8d6f8eeaff264b50f73ce5b114f646ffd9a0bb74f049b0a00135fa04");
-    EXPECT_EQ(page_script(), read_file(folder / "../../page.js"));
-    EXPECT_EQ(state_map_script(), read_file(folder / "../../state_map.js"));
-    EXPECT_EQ(mesh_view_script(), read_file(folder / "../../mesh_view.js"));
-    EXPECT_EQ(page_style(), read_file(folder / "../../page.css"));
+    EXPECT_EQ(sha256(assets().uplot_script), "19c8d4c6ad88929a79f4ae49d6f7161566dfd0ba3d15cc495e974f787eb78f1f");
+    EXPECT_EQ(sha256(assets().uplot_style), "df630c6a8d6f8eeaff264b50f73ce5b114f646ffd9a0bb74f049b0a00135fa04");
+    EXPECT_EQ(assets().page_script, read_file(folder / "../../page.js"));
+    EXPECT_EQ(assets().state_map_script, read_file(folder / "../../state_map.js"));
+    EXPECT_EQ(assets().mesh_view_script, read_file(folder / "../../mesh_view.js"));
+    EXPECT_EQ(assets().page_style, read_file(folder / "../../page.css"));
 }
 
 // Runs of a letter are counted; the scripts expand them. Coordinates and triangles as given.

@@ -128,7 +128,7 @@ TEST(ScreenReport, ASceneWithoutRecordsOrWaterHasAReportToo)
         parse_scene("[section]\nheight_m = 10\nbase_m = 8\n[dam]\ndensity_kg_m3 = 2500\n[contact]\nfriction = 0.6\n",
                     "block.toml", FileCheck::skip);
     const ReportRun run = report_run(scene);
-    const std::string html = screen_report({scene, run.scene, run.screening, run.records, 1});
+    const std::string html = page_html(screen_page({scene, run.scene, run.screening, run.records, 1}));
     EXPECT_NE(html.find("no record is given"), std::string::npos);
 }
 
@@ -136,8 +136,8 @@ TEST(ScreenReport, SameBytesForAnyNumberOfThreads)
 {
     const ReportRun run = report_run(report_scene());
     const Scene given = report_scene();
-    EXPECT_EQ(screen_report({given, run.scene, run.screening, run.records, 1}),
-              screen_report({given, run.scene, run.screening, run.records, 2}));
+    EXPECT_EQ(page_html(screen_page({given, run.scene, run.screening, run.records, 1})),
+              page_html(screen_page({given, run.scene, run.screening, run.records, 2})));
 }
 
 } // namespace

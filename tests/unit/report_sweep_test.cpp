@@ -178,7 +178,7 @@ TEST(SweepReport, ATableWithoutRowsHasAPageToo)
 {
     const Scene scene = sweep_scene();
     const Table rows;
-    EXPECT_NE(sweep_report({&scene, rows, view_of({}), {}, {}, {}, ""}).find("0 rows"), std::string::npos);
+    EXPECT_NE(page_html(sweep_page({&scene, rows, view_of({}), {}, {}, {}, ""})).find("0 rows"), std::string::npos);
 }
 
 } // namespace

@@ -116,7 +116,7 @@ int study(const StudyArguments& arguments, const Streams& streams)
     if (!streams.quiet)
         streams.talk << fmt::format("{} rows in {}\nreport: {}\n", table.rows.size(), sweep.out.string(),
                                     page.string());
-    if (const std::string words = unanswered_words(view); !words.empty()) streams.talk << words << "\n";
+    if (const std::string words = view.unanswered.words(); !words.empty()) streams.talk << words << "\n";
     int code = outcome.all_good() ? exit_ok : exit_no_answer;
     for (const SettingsStep& step : settings) {
         if (!step.unanswered.empty()) streams.talk << fmt::format("{}: {}\n", step.change, step.unanswered.words());

@@ -1,10 +1,8 @@
 #include "pages/ablation/ablation_pages.hpp"
 
 #include "analysis/prepare/ready.hpp"
-#include "analysis/prepare/records.hpp"
 #include "core/units.hpp"
-#include "pages/report/picture.hpp"
-#include "pages/report/table_text.hpp"
+#include "pages/report/tornado.hpp"
 #include "pages/scene/scene_pages.hpp"
 #include "scene/plausible.hpp"
 
@@ -16,9 +14,185 @@
 
 namespace damslip::pages {
 
+StatusCount unanswered_runs(const AblationRuns& runs)
+{
+    StatusCount count;
+    for (const VariantRuns& scene : runs.scenes)
+        for (const MotionOutcome& r : scene.motions)
+            if (!is_answer(r.status)) count.add(r.status);
+    if (runs.step && runs.step->missed) count.add(Status::tolerance_missed);
+    return count;
+}
+
 namespace {
 
 using units::mm;
+
+bool fe(const Ablations& in)
+{
+    return in.plan.method == Method::finite_elements;
+}
+
+std::string name_of(const AblationPlan& plan, const std::optional<Effect>& effect)
+{
+    for (const Ablation& a : plan.removals)
+        if (effect && a.effect == *effect) return a.name;
+    return "";
+}
+
+AblationRow sum_row(const AblationPlan& plan, const std::vector<AblationRow>& rows)
+{
+    AblationRow row{rows.front().motion, "(sum of changes)", "sum"};
+    row.remark = "some run has no final slip";
+    const double full = rows.front().slip.value.value_or(0.0);
+    if (const std::optional<double> sum = sum_of_changes(plan, rows)) {
+        row.slip.change = sum;
+        if (full != 0.0) row.slip.percent = 100.0 * *sum / std::abs(full);
+        row.remark = "without rows that are part of another";
+    }
+    return row;
+}
+
+/// The sum stands before the row of the simplest scene, which it compares with.
+void add_changes(const Ablations& in, std::size_t motion, std::vector<AblationRow>& list)
+{
+    std::vector<AblationRow> rows = rows_of(in.plan, in.runs, motion);
+    if (in.plan.simplest) rows.insert(rows.end() - 1, sum_row(in.plan, rows));
+    list.insert(list.end(), rows.begin(), rows.end());
+}
+
+std::vector<ColumnOf<AblationRow>> change_columns(const Ablations& in)
+{
+    using R = AblationRow;
+    const ColumnOf<R> slip_error{in_brief({"slip_error_mm", "± step", "mm", 2}), &R::slip_error, mm},
+        change_error{in_brief({"change_error_mm", "± step", "mm", 2}), &R::change_error, mm};
+    std::vector<ColumnOf<R>> columns{
+        {in_brief({"effect", "without"}), &R::name},
+        {in_brief({"status", "status"}), &R::status},
+        {in_brief({"slip_mm", "slip", "mm", 5}), [](const R& r) { return r.slip.value; }, mm}};
+    if (fe(in)) columns.push_back(slip_error);
+    columns.push_back({ranking({"change_mm", "change", "mm", 4}), [](const R& r) { return r.slip.change; }, mm});
+    if (fe(in)) columns.push_back(change_error);
+    columns.push_back({in_brief({"change_percent", "change", "%", 3}), [](const R& r) { return r.slip.percent; }});
+    if (fe(in)) {
+        columns.push_back({{"crest_mm", "crest", "mm", 4}, [](const R& r) { return r.crest.value; }, mm});
+        columns.push_back({{"crest_change_mm", "change", "mm", 3}, [](const R& r) { return r.crest.change; }, mm});
+        columns.push_back({{"crest_change_percent", "change", "%", 3}, [](const R& r) { return r.crest.percent; }});
+        for (std::size_t k = 0; k < in.plan.full.lift_joints.size(); ++k) {
+            const std::string key = fmt::format("lift_joint_{}_", k + 1);
+            columns.push_back(
+                {{key + "slip_mm", "slip, " + in.plan.full.lift_joints[k].name, "mm", 5},
+                 [k](const R& r) { return k < r.lifts.size() ? optional_cell(r.lifts[k].value, mm) : Cell(); }});
+            columns.push_back({{key + "change_mm", "change", "mm", 4}, [k](const R& r) {
+                                   return k < r.lifts.size() ? optional_cell(r.lifts[k].change, mm) : Cell();
+                               }});
+        }
+    }
+    columns.push_back({in_brief({"remark", "remark"}), &R::remark});
+    return columns;
+}
+
+/// Every effect that is on: what takes its place, or why it stays.
+Table removal_table(const Ablations& in)
+{
+    struct Row {
+        std::string effect, part_of, instead;
+    };
+    std::vector<Row> rows;
+    for (const Ablation& a : in.plan.removals) rows.push_back({a.name, name_of(in.plan, a.part_of), a.instead});
+    for (const KeptEffect& k : in.plan.kept) rows.push_back({k.name, "", "stays: " + k.why});
+    return table_of<Row>("What takes the place of each effect",
+                         {{{"effect", "effect"}, &Row::effect},
+                          {{"part_of", "part of"}, &Row::part_of},
+                          {{"instead", "instead"}, &Row::instead}},
+                         rows);
+}
+
+/// Slip and crest motion of every scene under one motion, and their changes; with the sum of the changes.
+Table change_table(const Ablations& in, std::size_t motion)
+{
+    std::vector<AblationRow> rows;
+    add_changes(in, motion, rows);
+    return table_of("Record " + in.runs.motions[motion].label(), change_columns(in), rows);
+}
+
+/// The same of all motions, with columns that name them.
+Table change_table_of_all(const Ablations& in)
+{
+    std::vector<AblationRow> rows;
+    for (std::size_t r = 0; r < in.runs.motions.size(); ++r) add_changes(in, r, rows);
+    std::vector<ColumnOf<AblationRow>> columns = change_columns(in);
+    columns.insert(columns.begin(),
+                   {{{"record", "record"}, [](const AblationRow& r) { return r.motion.record; }},
+                    {{"polarity", "polarity"}, [](const AblationRow& r) { return r.motion.polarity; }}});
+    return table_of("Changes by effect", columns, rows);
+}
+
+/// Yield acceleration and critical friction of every scene, rigid block.
+Table yield_change_table(const Ablations& in)
+{
+    struct Row {
+        std::string name;
+        Change yield, critical_friction;
+    };
+    const std::vector<std::string> names = scene_names(in.plan);
+    const VariantRuns& full = in.runs.scenes.front();
+    std::vector<Row> rows{{names[0], {full.yield_acceleration, {}, {}}, {full.critical_friction, {}, {}}}};
+    for (std::size_t i = 1; i < names.size(); ++i) {
+        const VariantRuns& own = in.runs.scenes[i];
+        rows.push_back({names[i], change_from(full.yield_acceleration, own.yield_acceleration),
+                        change_from(full.critical_friction, own.critical_friction)});
+    }
+    return table_of<Row>(
+        "Yield acceleration",
+        {{in_brief({"effect", "without"}), &Row::name},
+         {in_brief({"yield_acceleration_m_s2", "a_y", "m/s²", 6}), [](const Row& r) { return r.yield.value; }},
+         {{"change_m_s2", "change", "m/s²", 4}, [](const Row& r) { return r.yield.change; }},
+         {ranking({"change_percent", "change", "%", 3}), [](const Row& r) { return r.yield.percent; }},
+         {{"critical_friction", "critical μ", "–", 6}, [](const Row& r) { return r.critical_friction.value; }},
+         {{"critical_friction_change", "change", "–", 4}, [](const Row& r) { return r.critical_friction.change; }}},
+        rows, {"before any slip, downstream, without vertical motion; negative: slides without earthquake."});
+}
+
+/// Seconds of every scene and those saved; unknowns of FE models. Differs from call to call.
+Table seconds_table(const Ablations& in)
+{
+    struct Row {
+        std::string name;
+        const VariantRuns& runs;
+        std::optional<double> saved;
+        std::optional<std::int64_t> unknowns_saved = {};
+
+        std::int64_t unknowns() const { return runs.unknowns.value_or(0); }
+    };
+    const std::vector<std::string> names = scene_names(in.plan);
+    const VariantRuns& full = in.runs.scenes.front();
+    std::vector<Row> rows{{names[0], full, {}}};
+    for (std::size_t i = 1; i < names.size(); ++i) {
+        rows.push_back({names[i], in.runs.scenes[i], saved_seconds(full, in.runs.scenes[i])});
+        rows.back().unknowns_saved = rows.front().unknowns() - rows.back().unknowns();
+    }
+    const double percent = 0.01 * full.all_seconds();
+    std::vector<ColumnOf<Row>> columns{
+        {{"effect", "without"}, &Row::name},
+        {{"set_up_seconds", "set-up", "s", 3}, [](const Row& r) { return r.runs.set_up_seconds; }},
+        {{"run_seconds", "runs", "s", 3}, [](const Row& r) { return r.runs.run_seconds(); }},
+        {{"seconds", "sum", "s", 3}, [](const Row& r) { return r.runs.all_seconds(); }},
+        {{"saved_seconds", "saved", "s", 2}, &Row::saved},
+        {{"saved_percent", "saved", "%", 2}, [=](const Row& r) { return optional_cell(r.saved, percent); }}};
+    if (fe(in)) {
+        columns.push_back({{"unknowns", "unknowns"}, &Row::unknowns});
+        columns.push_back({{"unknowns_saved", "saved"}, &Row::unknowns_saved});
+    }
+    Table t = table_of("Seconds", columns, rows,
+                       {"processor time of one thread, so other work on the machine does not count; saved is positive "
+                        "where the simpler scene is faster."});
+    if (in.runs.jobs > 1)
+        t.notes.push_back(fmt::format("measured with up to {} scenes side by side, which share caches and memory: use "
+                                      "--jobs 1 for seconds to rely on.",
+                                      in.runs.jobs));
+    return t;
+}
 
 /// The removal that changes the slip most under one motion; null: none has a change.
 const AblationRow* strongest(const AblationPlan& plan, const std::vector<AblationRow>& rows)
@@ -127,7 +301,7 @@ std::vector<std::size_t> worst_first(const Ablations& in)
 {
     std::vector<std::size_t> order(in.runs.motions.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
         const std::vector<MotionOutcome>& full = in.runs.scenes.front().motions;
         return std::abs(full[a].slip.value_or(0.0)) > std::abs(full[b].slip.value_or(0.0));
     });
@@ -175,73 +349,6 @@ std::vector<std::string> warnings(const Ablations& in)
     return list;
 }
 
-} // namespace
-
-Page ablation_page(const Ablations& in, const Scene& given, const EffectPlan& effects)
-{
-    Page page = begin_page(given, "What each effect does to the slip, and what it costs. ");
-    page.headline = headline(in);
-    page.key_figures = key_figures(in);
-    page.warnings = warnings(in);
-    for (std::size_t r = 0; r < in.runs.motions.size(); ++r)
-        page.sections.push_back(
-            {"Slip, record " + in.runs.motions[r].label(),
-             {slip_bars(in, r),
-              rows_part(
-                  change_table(in, r),
-                  {"Slip: of the scene without the effect named, positive downstream; change: against the run with all "
-                   "effects, positive where the slip is larger without it; ± step: what the time step leaves open."})},
-             Fold::open});
-    if (in.plan.method == Method::rigid_block)
-        page.sections.push_back(
-            {"Yield acceleration", {yield_bars(in), rows_part(yield_change_table(in))}, Fold::open});
-    page.sections.push_back({"Seconds", {second_bars(in), rows_part(seconds_table(in))}, Fold::open});
-    Section how{"How to read it", {rows_part(removal_table(in))}, Fold::open};
-    for (std::string& note : ablation_notes(in)) how.parts.push_back(Paragraph{std::move(note)});
-    page.sections.push_back(std::move(how));
-    page.sections.push_back({"Effects taken into account", {effect_part(effects)}, Fold::folded});
-    page.sections.push_back(limits_section(given, in.plan.method));
-    page.sections.push_back({"Scene", {scene_listing(given)}, Fold::open});
-    page.provenance = scene_provenance(given);
-    add_record_provenance(in.records, page.provenance);
-    return page;
-}
-
-Answer ablation_answer(const Ablations& in, const Scene& given, const EffectPlan& effects)
-{
-    Answer all(json_header("explain", given));
-    all += in.plan.full.title + "\n\n";
-    const Table removals = removal_table(in), yields = yield_change_table(in), seconds = seconds_table(in);
-    const bool rigid = in.plan.method == Method::rigid_block;
-    all.set("method", rigid ? "rigid" : "fe");
-    all.add("effects", effect_table(effects));
-    nlohmann::ordered_json of_runs;
-    all.add("removals", removals, {.data = false});
-    of_runs["removals"] = json_of(removals);
-    if (const auto& step = in.runs.step)
-        of_runs["step"] = {{"substeps", step->halvings},
-                           {"dt_s", step->largest_dt},
-                           {"chosen", step->chosen},
-                           {"error_from_substeps", step->other}};
-    if (rigid) {
-        all.add("yield", yields, {.brief = in.records.empty(), .data = false});
-        of_runs["yield"] = json_of(yields);
-    }
-    const std::vector<std::size_t> order = worst_first(in);
-    for (std::size_t m = 0; m < order.size(); ++m)
-        all.add("changes", change_table(in, m), {.brief = m == order.front(), .data = false});
-    all.add("seconds", seconds, {.data = false});
-    of_runs["changes"] = json_of(change_table_of_all(in));
-    of_runs["notes"] = ablation_notes(in);
-    of_runs["seconds"] = {{"jobs", in.runs.jobs}, {"scenes", json_of(seconds)}};
-    all.set("ablation", of_runs);
-    all.headline_in_brief(headline(in));
-    for (const std::string& note : ablation_notes(in)) all.note(note);
-    return all;
-}
-
-namespace {
-
 /// "dt/8"
 std::string step_word(int halvings)
 {
@@ -277,8 +384,7 @@ std::optional<std::string> interaction_note(const Ablations& in)
     return any ? text + "." : "effects act on each other, so the changes do not add up.";
 }
 
-} // namespace
-
+/// What has to be known to read the tables, a sentence each; the same at each call.
 std::vector<std::string> ablation_notes(const Ablations& in)
 {
     std::vector<std::string> notes;
@@ -310,100 +416,66 @@ std::vector<std::string> ablation_notes(const Ablations& in)
     return notes;
 }
 
-namespace {
-
-// Pixels of the drawing; y is up.
-constexpr double width = 720.0, names = 200.0, figures = 130.0, row = 26.0, bar = 15.0, axis_height = 44.0;
-
-/// 1, 2 or 5 times a power of ten, at most the value.
-double round_step(double value)
-{
-    const double power = std::pow(10.0, std::floor(std::log10(value)));
-    for (const double digit : {5.0, 2.0})
-        if (digit * power <= value) return digit * power;
-    return power;
-}
-
-struct Frame {
-    double low = 0.0, high = 0.0; ///< of the values
-    /// Both sides that have bars have room for their figures.
-    double x(double value) const
-    {
-        const double left = names + (low < 0 ? figures : 0.0);
-        return left + (value - low) / (high - low) * (width - figures - left);
-    }
-};
-
-Frame frame_of(const std::vector<Bar>& bars)
-{
-    Frame f;
-    double largest = 0.0;
-    for (const Bar& b : bars) {
-        if (!b.value) continue;
-        largest = std::max(largest, std::abs(*b.value));
-        f.low = std::min(f.low, *b.value);
-        f.high = std::max(f.high, *b.value);
-    }
-    for (const Bar& b : bars) { // whiskers longer than half the longest bar are cut at the frame
-        if (!b.value) continue;
-        f.low = std::min(f.low, *b.value - std::min(b.error, 0.5 * largest));
-        f.high = std::max(f.high, *b.value + std::min(b.error, 0.5 * largest));
-    }
-    if (f.high == f.low) f.high = 1.0;
-    return f;
-}
-
-void draw_axis(Sketch& sketch, const Frame& f, double top, const std::string& axis)
-{
-    const double step = round_step((f.high - f.low) / 3.0);
-    for (double k = std::ceil(f.low / step); k * step <= f.high * (1 + 1e-12); ++k) {
-        const double x = f.x(k * step);
-        sketch.line({{x, axis_height}, {x, top}}, k == 0.0 ? "axis" : "grid-line");
-        sketch.text({x, axis_height}, fmt::format("{:.6g}", k == 0.0 ? 0.0 : k * step), Align::middle, 0, 15, "small");
-    }
-    sketch.text({f.x(0.5 * (f.low + f.high)), axis_height}, axis, Align::middle, 0, 33, "small");
-}
-
-void draw_bar(Sketch& sketch, const Frame& f, const Bar& b, double middle)
-{
-    sketch.text({names, middle}, b.name, Align::end, -12, 4.5, "");
-    if (!b.value) {
-        sketch.text({f.x(0.0), middle}, b.words, Align::start, 8, 4.5, "small");
-        return;
-    }
-    const double from = f.x(0.0), to = f.x(*b.value), low = middle - bar / 2, high = middle + bar / 2;
-    const std::string css = std::string(*b.value > 0 ? "more" : "less") + (b.doubtful ? " doubtful" : "");
-    if (from != to) sketch.polygon({{from, low}, {to, low}, {to, high}, {from, high}}, css);
-    double end = to;
-    if (b.error > 0) {
-        const double a = f.x(std::max(f.low, *b.value - b.error)), z = f.x(std::min(f.high, *b.value + b.error));
-        sketch.line({{a, middle}, {z, middle}}, "whisker");
-        for (const double x : {a, z}) sketch.line({{x, middle - 4}, {x, middle + 4}}, "whisker");
-        end = *b.value < 0 ? std::min(a, to) : std::max(z, to);
-    }
-    sketch.text({end, middle}, b.words, *b.value < 0 ? Align::end : Align::start, *b.value < 0 ? -6 : 6, 4.5,
-                "halo small");
-}
-
 } // namespace
 
-Drawing tornado(std::string title, std::vector<Bar> bars, const std::string& axis, const std::string& note)
+Page ablation_page(const Ablations& in, const Scene& given, const EffectPlan& effects)
 {
-    std::stable_sort(bars.begin(), bars.end(), [](const Bar& a, const Bar& b) {
-        return (a.value ? std::abs(*a.value) : -1.0) > (b.value ? std::abs(*b.value) : -1.0);
-    });
-    const Frame f = frame_of(bars);
-    const double top = axis_height + row * static_cast<double>(bars.size()) + 4.0;
-    Sketch sketch({0, 0}, {width, top}, width);
-    draw_axis(sketch, f, top, axis);
-    double middle = top - 4.0 - row / 2;
-    for (const Bar& b : bars) {
-        draw_bar(sketch, f, b, middle);
-        middle -= row;
+    Page page = begin_page(given, "What each effect does to the slip, and what it costs. ");
+    page.headline = headline(in);
+    page.key_figures = key_figures(in);
+    page.warnings = warnings(in);
+    for (std::size_t r = 0; r < in.runs.motions.size(); ++r)
+        page.sections.push_back(
+            {"Slip, record " + in.runs.motions[r].label(),
+             {slip_bars(in, r),
+              rows_part(
+                  change_table(in, r),
+                  {"Slip: of the scene without the effect named, positive downstream; change: against the run with all "
+                   "effects, positive where the slip is larger without it; ± step: what the time step leaves "
+                   "open."})}});
+    if (in.plan.method == Method::rigid_block)
+        page.sections.push_back({"Yield acceleration", {yield_bars(in), rows_part(yield_change_table(in))}});
+    page.sections.push_back({"Seconds", {second_bars(in), rows_part(seconds_table(in))}});
+    Section how{"How to read it", {rows_part(removal_table(in))}};
+    for (std::string& note : ablation_notes(in)) how.parts.push_back(Paragraph{std::move(note)});
+    page.sections.push_back(std::move(how));
+    page.sections.push_back({"Effects taken into account", {effect_part(effects)}, Fold::folded});
+    page.sections.push_back(limits_section(given, in.plan.method));
+    end_page(given, in.records, page);
+    return page;
+}
+
+Answer ablation_answer(const Ablations& in, const Scene& given, const EffectPlan& effects)
+{
+    Answer all(json_header("explain", given));
+    all += in.plan.full.title + "\n\n";
+    const Table removals = removal_table(in), yields = yield_change_table(in), seconds = seconds_table(in);
+    const bool rigid = in.plan.method == Method::rigid_block;
+    all.set("method", rigid ? "rigid" : "fe");
+    all.add("effects", effect_table(effects));
+    nlohmann::ordered_json of_runs;
+    all.add("removals", removals, {.data = false});
+    of_runs["removals"] = json_of(removals);
+    if (const auto& step = in.runs.step)
+        of_runs["step"] = {{"substeps", step->halvings},
+                           {"dt_s", step->largest_dt},
+                           {"chosen", step->chosen},
+                           {"error_from_substeps", step->other}};
+    if (rigid) {
+        all.add("yield", yields, {.brief = in.records.empty(), .data = false});
+        of_runs["yield"] = json_of(yields);
     }
-    std::string description = title + ":";
-    for (const Bar& b : bars) description += fmt::format(" {} {};", b.name, b.words);
-    return {std::move(title), sketch.svg(description), note};
+    const std::vector<std::size_t> order = worst_first(in);
+    for (std::size_t m = 0; m < order.size(); ++m)
+        all.add("changes", change_table(in, m), {.brief = m == order.front(), .data = false});
+    all.add("seconds", seconds, {.data = false});
+    of_runs["changes"] = json_of(change_table_of_all(in));
+    of_runs["notes"] = ablation_notes(in);
+    of_runs["seconds"] = {{"jobs", in.runs.jobs}, {"scenes", json_of(seconds)}};
+    all.set("ablation", of_runs);
+    all.headline_in_brief(headline(in));
+    for (const std::string& note : ablation_notes(in)) all.note(note);
+    return all;
 }
 
 } // namespace damslip::pages

@@ -2,11 +2,8 @@
 
 #include "analysis/accuracy/accuracy.hpp"
 #include "analysis/prepare/records.hpp"
-#include "core/csv.hpp"
 #include "pages/report/answer.hpp"
 #include "pages/report/page.hpp"
-
-#include <nlohmann/json_fwd.hpp>
 
 namespace damslip::pages {
 
@@ -39,17 +36,8 @@ std::string figure_title(const Scene& scene, const std::vector<RecordPair>& reco
 /// One row per model level: slip, what is open, difference of models, deviation from the top model level, cost.
 Table model_level_table(const std::vector<ModelLevelResult>& results, const Judgement& judgement);
 
-/// Those that no model level as fast beats, the finest first.
-Table front_table(const std::vector<ModelLevelResult>& results, const Judgement& judgement);
-
 /// One row per model with two model levels at least: its limit and the orders in which its model levels tend to it.
 Table model_table(const std::vector<ModelLevelResult>& results, const Judgement& judgement);
-
-/// Slip of every model level for every motion [m], for files.
-Table slip_table(const std::vector<ModelLevelResult>& results, const std::vector<MotionName>& motions);
-
-/// Slips of one model level, by motion.
-Table one_model_level_table(const ModelLevelResult& result, const std::vector<MotionName>& motions);
 
 /// Did some model level run, and every one that did find that the dam does not stand without an earthquake? That is an answer.
 bool all_fail_statically(const std::vector<ModelLevelResult>& results);

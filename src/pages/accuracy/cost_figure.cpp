@@ -1,5 +1,6 @@
 #include "pages/accuracy/accuracy_pages.hpp"
 
+#include "core/word_in.hpp"
 #include "pages/report/json.hpp"
 
 #include <algorithm>
@@ -40,21 +41,26 @@ struct LogAxis {
     {
         return from + (to - from) * std::clamp((std::log10(value) - low) / (high - low), 0.0, 1.0);
     }
+    /// One to nine times each power of ten, with the multiple.
+    std::vector<std::pair<double, int>> marks() const
+    {
+        std::vector<std::pair<double, int>> list;
+        for (int e = static_cast<int>(std::floor(low)); e <= std::ceil(high); ++e)
+            for (int m = 1; m < 10; ++m)
+                if (const double v = m * std::pow(10.0, e); std::log10(v) >= low && std::log10(v) <= high)
+                    list.emplace_back(v, m);
+        return list;
+    }
 };
 
 LogAxis log_axis(const std::vector<double>& values, double from, double to)
 {
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    const auto [low, high] = std::ranges::minmax_element(values);
     LogAxis axis{std::log10(*low) - 0.15, std::log10(*high) + 0.15, from, to};
     const double middle = 0.5 * (axis.low + axis.high);
     axis.low = std::min(axis.low, middle - 0.5); // a decade at least
     axis.high = std::max(axis.high, middle + 0.5);
     return axis;
-}
-
-std::string plain_number(double v)
-{
-    return fmt::format("{:g}", v);
 }
 
 /// The figure under construction.
@@ -112,22 +118,15 @@ private:
     void draw_axes()
     {
         const std::string grid = "stroke:var(--grid);stroke-width:1", fine = grid + ";stroke-opacity:.5";
-        for (int e = static_cast<int>(std::floor(x_.low)); e <= std::ceil(x_.high); ++e)
-            for (int m = 1; m < 10; ++m) {
-                const double v = m * std::pow(10.0, e);
-                if (std::log10(v) < x_.low || std::log10(v) > x_.high) continue;
-                line(x_.at(v), top, x_.at(v), height - bottom, m == 1 ? grid : fine);
-                if (m == 1) text(x_.at(v), height - bottom + 18, plain_number(v), "middle");
-            }
+        for (const auto& [v, m] : x_.marks()) {
+            line(x_.at(v), top, x_.at(v), height - bottom, m == 1 ? grid : fine);
+            if (m == 1) text(x_.at(v), height - bottom + 18, fmt::format("{:g}", v), "middle");
+        }
         const bool dense = y_.high - y_.low < 2.0;
-        for (int e = static_cast<int>(std::floor(y_.low)); e <= std::ceil(y_.high); ++e)
-            for (int m = 1; m < 10; ++m) {
-                const double v = m * std::pow(10.0, e);
-                if (std::log10(v) < y_.low || std::log10(v) > y_.high) continue;
-                line(left, y_.at(v), width - right, y_.at(v), m == 1 ? grid : fine);
-                if (m == 1 || (dense && (m == 2 || m == 5)))
-                    text(left - 8, y_.at(v) + 4, plain_number(v) + " %", "end");
-            }
+        for (const auto& [v, m] : y_.marks()) {
+            line(left, y_.at(v), width - right, y_.at(v), m == 1 ? grid : fine);
+            if (m == 1 || (dense && (m == 2 || m == 5))) text(left - 8, y_.at(v) + 4, fmt::format("{:g} %", v), "end");
+        }
         const std::string axis = "stroke:var(--axis);stroke-width:1.2";
         line(left, height - bottom, width - right, height - bottom, axis);
         line(left, top, left, height - bottom, axis);
@@ -157,8 +156,7 @@ private:
         std::vector<std::size_t> front;
         for (const std::size_t i : shown_)
             if (judgement_.model_levels[i].front) front.push_back(i);
-        std::sort(front.begin(), front.end(),
-                  [&](auto a, auto b) { return results_[a].seconds < results_[b].seconds; });
+        std::ranges::sort(front, {}, [&](std::size_t i) { return results_[i].seconds; });
         std::string path;
         for (std::size_t k = 0; k < front.size(); ++k)
             path += k == 0 ? fmt::format("M{:.1f} {:.1f}", x(front[k]), y(front[k]))
@@ -195,7 +193,7 @@ private:
     {
         std::vector<std::size_t> order;
         const auto add = [&](std::size_t i) {
-            if (std::find(order.begin(), order.end(), i) == order.end()) order.push_back(i);
+            if (std::ranges::find(order, i) == order.end()) order.push_back(i);
         };
         if (judgement_.choice) add(*judgement_.choice);
         for (const std::size_t i : shown_)
@@ -221,9 +219,8 @@ private:
             const Box box{start, py - 12, start + size, py + 4};
             if (box.x0 < left || box.x1 > width - right || box.y0 < top || box.y1 > height - bottom) continue;
             const Box own{x(i) - 6, y(i) - 6, x(i) + 6, y(i) + 6};
-            if (std::any_of(taken_.begin(), taken_.end(),
-                            [&](const Box& o) { return o.meets(box) && !(o.x0 == own.x0 && o.y0 == own.y0); }))
-                continue;
+            const auto in_the_way = [&](const Box& o) { return o.meets(box) && !(o.x0 == own.x0 && o.y0 == own.y0); };
+            if (std::ranges::any_of(taken_, in_the_way)) continue;
             const bool front = judgement_.model_levels[i].front || judgement_.choice == i;
             text(px, py, words, place.anchor,
                  fmt::format("paint-order:stroke;stroke:var(--paper);stroke-width:4;stroke-linejoin:round{}",
@@ -240,9 +237,8 @@ private:
         text(left, 22, title, "start", "font-size:16px;font-weight:600");
         double at = left + 6, row = 40;
         for (const ModelLevelKind kind : kinds) {
-            const bool there = std::any_of(shown_.begin(), shown_.end(),
-                                           [&](std::size_t i) { return kind_of(results_[i].model_level) == kind; });
-            if (!there) continue;
+            const auto of_kind = [&](std::size_t i) { return kind_of(results_[i].model_level) == kind; };
+            if (std::ranges::none_of(shown_, of_kind)) continue;
             const std::string words = kind_name(kind, results_);
             const double size = 6.6 * static_cast<double>(words.size());
             if (at + 10 + size > width - right) at = left + 6, row += 17; // a second row, above the axis' words
@@ -283,24 +279,14 @@ ModelLevelKind kind_of(const ModelLevel& model_level)
 
 std::string kind_name(ModelLevelKind kind, const std::vector<ModelLevelResult>& results)
 {
-    switch (kind) {
-    case ModelLevelKind::regression:
-        return "regressions";
-    case ModelLevelKind::rigid:
-        return "rigid block";
-    case ModelLevelKind::reduced:
-        return "FE, few modes";
-    case ModelLevelKind::variant:
-        return "FE, penalty or scheme";
-    case ModelLevelKind::acoustic:
-        return "FE, acoustic water";
-    case ModelLevelKind::quadratic:
-        return "FE, quadratic elements";
-    case ModelLevelKind::other_rock:
-        return "FE, other rock or box of waves";
-    case ModelLevelKind::finite_elements:
-        break;
-    }
+    if (kind != ModelLevelKind::finite_elements)
+        return word_in(kind, {{ModelLevelKind::regression, "regressions"},
+                              {ModelLevelKind::rigid, "rigid block"},
+                              {ModelLevelKind::reduced, "FE, few modes"},
+                              {ModelLevelKind::variant, "FE, penalty or scheme"},
+                              {ModelLevelKind::acoustic, "FE, acoustic water"},
+                              {ModelLevelKind::quadratic, "FE, quadratic elements"},
+                              {ModelLevelKind::other_rock, "FE, other rock or box of waves"}});
     for (const ModelLevelResult& r : results)
         if (r.model_level.family == ModelLevelFamily::finite_elements && r.model_level.water != ModelLevelWater::acoustic)
             return "FE, " + std::string(water_word(r.model_level.water));

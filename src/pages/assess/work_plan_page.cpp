@@ -1,7 +1,7 @@
-#include "pages/assess/work_plan_page.hpp"
+#include "pages/assess/assess_pages.hpp"
 
 #include "core/units.hpp"
-#include "pages/report/json.hpp"
+#include "core/word_in.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
 #include "scene/plausible.hpp"
@@ -18,52 +18,49 @@ namespace {
 
 using units::mm;
 
-struct PartWords {
-    const char *model, *why;
-};
-
-PartWords words_of(AssessPart part)
+const char* model_of(AssessPart part)
 {
-    switch (part) {
-    case AssessPart::rigid_block:
-        return {"limit equilibrium, regressions, rigid block", "checks of the load combinations; order of the slip"};
-    case AssessPart::flexible_block:
-        return {"flexible block", "whether the dam's first mode moves the rigid block's slip"};
-    case AssessPart::finite_elements:
-        return {"finite elements", "elastic dam that slides, opens and rocks: decides the slip"};
-    case AssessPart::spectrum:
-        return {"response spectrum", "how much the dam amplifies each record"};
-    case AssessPart::rigid_effects:
-        return {"rigid block without each effect", "which assumption moves the block's slip"};
-    case AssessPart::variants:
-        return {"finite elements, one assumption changed", "range of the answer; which assumption moves it"};
-    }
-    return {};
+    return word_in(part, {{AssessPart::rigid_block, "limit equilibrium, regressions, rigid block"},
+                          {AssessPart::flexible_block, "flexible block"},
+                          {AssessPart::finite_elements, "finite elements"},
+                          {AssessPart::spectrum, "response spectrum"},
+                          {AssessPart::rigid_effects, "rigid block without each effect"},
+                          {AssessPart::variants, "finite elements, one assumption changed"}});
+}
+
+const char* why(AssessPart part)
+{
+    return word_in(part, {{AssessPart::rigid_block, "checks of the load combinations; order of the slip"},
+                          {AssessPart::flexible_block, "whether the dam's first mode moves the rigid block's slip"},
+                          {AssessPart::finite_elements, "elastic dam that slides, opens and rocks: decides the slip"},
+                          {AssessPart::spectrum, "how much the dam amplifies each record"},
+                          {AssessPart::rigid_effects, "which assumption moves the block's slip"},
+                          {AssessPart::variants, "range of the answer; which assumption moves it"}});
 }
 
 /// What a part of a finished assessment says, in a few words.
 std::string came_out(AssessPart part, const Assessment& a)
 {
-    const auto slip = [&](SlipLevel level) {
+    const auto slip = [&](SlipLevel level, bool ran) {
         std::optional<double> most;
         for (const MotionOutcome& l : a.levels)
             if (l.level == level && l.largest_slip) most = std::max(most.value_or(0.0), *l.largest_slip);
-        return most ? fmt::format("{:.4g} mm", *most / mm) : std::string("no slip");
+        return !ran ? "not run" : most ? fmt::format("{:.4g} mm", *most / mm) : "no slip";
     };
-    const auto ran = [&](const auto& there, const std::string& text) { return there ? text : std::string("not run"); };
+    const auto done = [](bool ran) { return std::string(ran ? "done" : "not run"); };
     switch (part) {
     case AssessPart::rigid_block:
-        return slip(SlipLevel::rigid_block);
+        return slip(SlipLevel::rigid_block, true);
     case AssessPart::flexible_block:
-        return ran(a.flexible, slip(SlipLevel::flexible_block));
+        return slip(SlipLevel::flexible_block, bool(a.flexible));
     case AssessPart::finite_elements:
-        return ran(!a.runs.empty(), slip(SlipLevel::finite_elements));
+        return slip(SlipLevel::finite_elements, !a.runs.empty());
     case AssessPart::spectrum:
-        return ran(a.spectrum, "done");
+        return done(bool(a.spectrum));
     case AssessPart::rigid_effects:
-        return ran(a.rigid_ablation, "done");
+        return done(bool(a.rigid_ablation));
     case AssessPart::variants:
-        return ran(!a.assumptions.empty(), fmt::format("{} runs", a.assumptions.size()));
+        return a.assumptions.empty() ? "not run" : fmt::format("{} runs", a.assumptions.size());
     }
     return "";
 }
@@ -84,11 +81,11 @@ std::string cost(const WorkPlan& plan)
                                    plan.seconds(), plan.budget);
     std::string unknown;
     for (const PlannedPart& p : plan.parts)
-        if (p.left_out.empty() && !p.seconds) unknown += (unknown.empty() ? "" : "; ") + std::string(words_of(p.part).model);
+        if (p.left_out.empty() && !p.seconds) unknown += std::string(unknown.empty() ? "" : "; ") + model_of(p.part);
     if (!unknown.empty())
         text += " Not estimated, for the dam does not stand before the earthquake: " + unknown + ".";
-    const auto over = std::count_if(plan.parts.begin(), plan.parts.end(),
-                                    [](const PlannedPart& p) { return p.left_out.empty() && !p.fits; });
+    const auto over =
+        std::ranges::count_if(plan.parts, [](const PlannedPart& p) { return p.left_out.empty() && !p.fits; });
     if (over > 0)
         text += fmt::format(" The budget does not hold {} of {} parts whole: raise --budget, or agree to what it leaves out.",
                             over, plan.parts.size());
@@ -129,7 +126,7 @@ std::vector<std::string> plan_notes(const WorkPlan& plan)
     std::vector<std::string> notes = note_texts(plan.ready.given.notes);
     if (!plan.rock_change.empty()) notes.push_back(plan.rock_change);
     for (const PlannedPart& part : plan.parts)
-        if (!part.left_out.empty()) notes.push_back(fmt::format("{}: {}", words_of(part.part).model, part.left_out));
+        if (!part.left_out.empty()) notes.push_back(fmt::format("{}: {}", model_of(part.part), part.left_out));
     return notes;
 }
 
@@ -139,9 +136,9 @@ Table work_plan_table(const WorkPlan& plan, const Assessment* done)
 {
     using P = PlannedPart;
     std::vector<ColumnOf<P>> columns{
-        {in_brief({"model", "model"}), [](const P& p) { return words_of(p.part).model; }},
-        {in_brief({"motions", "motions"}), [](const P& p) { return count_cell(p.runs); }},
-        {in_brief({"estimated_s", "estimated", "s", 2}), [](const P& p) { return optional_cell(p.seconds); }},
+        {in_brief({"model", "model"}), [](const P& p) { return model_of(p.part); }},
+        {in_brief({"motions", "motions"}), &P::runs},
+        {in_brief({"estimated_s", "estimated", "s", 2}), &P::seconds},
         {in_brief({"fits", "fits"}), [](const P& p) {
              return !p.left_out.empty() ? "cannot run" : !p.seconds ? "not known" : p.fits ? "yes" : "not whole";
          }}};
@@ -152,7 +149,7 @@ Table work_plan_table(const WorkPlan& plan, const Assessment* done)
                            }});
         columns.push_back({{"came_out", "came out"}, [done](const P& p) { return came_out(p.part, *done); }});
     }
-    columns.push_back({{"why", "why"}, [](const P& p) { return words_of(p.part).why; }});
+    columns.push_back({{"why", "why"}, [](const P& p) { return why(p.part); }});
     return table_of<P>("Models in their order", columns, plan.parts,
                        {"motions: records times polarities, of each model; of the changed assumptions one each, on the worst motion."});
 }
@@ -199,9 +196,7 @@ Page work_plan_page(const WorkPlan& plan, const Scene& given)
     page.sections.push_back({"Premises", {rows_part(effects_of(plan, true))}});
     page.sections.push_back({"Left out", {rows_part(effects_of(plan, false))}});
     page.sections.push_back(limits_section(plan.ready.scene, plan.fe ? Method::finite_elements : Method::rigid_block));
-    page.sections.push_back({"Scene", {scene_listing(given)}});
-    page.provenance = scene_provenance(given);
-    add_record_provenance(plan.ready.records(), page.provenance);
+    end_page(given, plan.ready.records(), page);
     return page;
 }
 
@@ -222,8 +217,7 @@ Answer work_plan_answer(const WorkPlan& plan, const Scene& given)
     all.point("cost", cost(plan));
     all.point("agree before it runs", agreement);
     all += cost(plan) + "\n" + broken_lines(std::string("Agree before it runs: ") + agreement, "") + "\n\n";
-    all.set("notes", plan_notes(plan));
-    for (const std::string& note : plan_notes(plan)) all.note(note);
+    all.notes("notes", plan_notes(plan));
     all.next("damslip assess " + given.file.string() + fmt::format(" --budget {:g}", plan.budget));
     return all;
 }

@@ -22,19 +22,12 @@ Table joint_table(const Explained& in)
     std::vector<Row> rows;
     for (std::size_t i = 0; i < in.model->mesh.lifts.size(); ++i)
         rows.push_back({in.lift_joints[i], in.model->mesh.lifts[i]});
-    return table_of<Row>(
-        "Lift joints",
-        {{{"joint", "joint"}, [](const Row& r) { return r.joint.name; }},
-         {{"elevation_m", "elevation", "m", 5}, [](const Row& r) { return r.joint.elevation; }},
-         {{"length_m", "length", "m", 5}, [](const Row& r) { return r.contact.distance.back(); }},
-         {{"pairs", "contact pairs"}, [](const Row& r) { return count_cell(r.contact.upper_nodes.size()); }}},
-        rows);
-}
-
-/// Counts from the assembled matrices themselves.
-Table model_counts(const Explained& in)
-{
-    return count_table(in.model->counts, in.water ? &*in.water : nullptr);
+    return table_of<Row>("Lift joints",
+                         {{{"joint", "joint"}, [](const Row& r) { return r.joint.name; }},
+                          {{"elevation_m", "elevation", "m", 5}, [](const Row& r) { return r.joint.elevation; }},
+                          {{"length_m", "length", "m", 5}, [](const Row& r) { return r.contact.distance.back(); }},
+                          {{"pairs", "contact pairs"}, [](const Row& r) { return r.contact.upper_nodes.size(); }}},
+                         rows);
 }
 
 Table part_table(const ContactCost& cost)
@@ -45,7 +38,7 @@ Table part_table(const ContactCost& cost)
                         {{"unknowns", "unknowns"}, &P::unknowns},
                         {{"become", "become"}, [&](const P&) { return cost.contact_unknowns; }},
                         {{"made", "made"}, &P::made},
-                        {{"bytes", "bytes"}, [](const P& p) { return count_cell(p.bytes); }}},
+                        {{"bytes", "bytes"}, &P::bytes}},
                        cost.parts,
                        {"the contact problem's bytes are its matrix V, which the motion of the dam holds already."});
 }
@@ -93,7 +86,7 @@ std::string cost_text(const ContactCost& cost)
 Answer explain_answer(const Explained& in)
 {
     const auto& effects = in.plan.effects;
-    const auto on = std::count_if(effects.begin(), effects.end(), [](const PlannedEffect& e) { return e.on; });
+    const auto on = std::ranges::count(effects, true, &PlannedEffect::on);
     Answer all(json_header("explain", in.given, in.plan.scene_hash));
     all += in.given.title + "\n\n";
     all.set("method", in.method);
@@ -103,7 +96,7 @@ Answer explain_answer(const Explained& in)
         fmt::format("{} of {} effects on; the others are neither read, built nor stored.", on, effects.size());
     all += sentence + "\n\n";
     all.headline_in_brief({sentence});
-    if (in.model) all.add("model", model_counts(in));
+    if (in.model) all.add("model", count_table(in.model->counts, in.water ? &*in.water : nullptr));
     if (in.model) all += "  tied base; `damslip fe` without --base tied keeps both sides of the contact plane.\n\n";
     if (in.model && !in.model->mesh.lifts.empty()) all.add("lift_joints", joint_table(in));
     if (in.cost) {

@@ -5,7 +5,6 @@
 #include "fe2d/model/model.hpp"
 #include "pages/report/answer.hpp"
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

@@ -1,13 +1,13 @@
 #include "pages/fe/fe_pages.hpp"
 
 #include "core/units.hpp"
+#include "core/word_in.hpp"
 #include "pages/scene/scene_pages.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <ranges>
-#include <string_view>
 #include <utility>
 
 namespace damslip::pages {
@@ -24,17 +24,15 @@ double without_round_off(double force, double scale)
 
 double least(const std::vector<double>& normal_force)
 {
-    return without_round_off(*std::min_element(normal_force.begin(), normal_force.end()), normal_force.front());
+    return without_round_off(*std::ranges::min_element(normal_force), normal_force.front());
 }
 
 double largest(const std::vector<double>& values)
 {
-    return *std::max_element(values.begin(), values.end());
+    return *std::ranges::max_element(values);
 }
 
 using ContactColumn = ColumnOf<ContactRun>;
-const ContactColumn record_column{in_brief({"record", "record"}), &ContactRun::record};
-const ContactColumn polarity_column{in_brief({"polarity", "polarity"}), &ContactRun::polarity};
 
 } // namespace
 
@@ -63,7 +61,7 @@ std::vector<ColumnOf<fe2d::Energy>> energy_columns_of(const std::vector<fe2d::En
     using E = fe2d::Energy;
     std::vector<ColumnOf<E>> columns = energy_columns();
     const auto any = [&](double E::*term) {
-        return std::any_of(rows.begin(), rows.end(), [=](const E& e) { return e.*term != 0.0; });
+        return std::ranges::any_of(rows, [=](const E& e) { return e.*term != 0.0; });
     };
     const auto add = [&](const char* key, const char* heading, double E::*term, bool shown = false) {
         if (shown || any(term)) columns.push_back({{key, heading, "J/m", 6}, term});
@@ -99,23 +97,14 @@ fe2d::StageStatus lift_status(const fe2d::StageResult& s, const fe2d::PlaneBalan
     return s.status == fe2d::StageStatus::not_resolved ? s.status : lift.status;
 }
 
-std::string stage_word(fe2d::StageStatus status)
+const char* stage_word(fe2d::StageStatus status)
 {
-    switch (status) {
-    case fe2d::StageStatus::ok:
-        return "stands";
-    case fe2d::StageStatus::slides:
-        return "SLIDES";
-    case fe2d::StageStatus::progressive:
-        return "BOND BREAKS";
-    case fe2d::StageStatus::floats:
-        return "FLOATS";
-    case fe2d::StageStatus::overturns:
-        return "OVERTURNS";
-    case fe2d::StageStatus::not_resolved:
-        return "NOT RESOLVED";
-    }
-    return "";
+    return word_in(status, {{fe2d::StageStatus::ok, "stands"},
+                            {fe2d::StageStatus::slides, "SLIDES"},
+                            {fe2d::StageStatus::progressive, "BOND BREAKS"},
+                            {fe2d::StageStatus::floats, "FLOATS"},
+                            {fe2d::StageStatus::overturns, "OVERTURNS"},
+                            {fe2d::StageStatus::not_resolved, "NOT RESOLVED"}});
 }
 
 /// The base or a lift joint at the end of a stage.
@@ -176,7 +165,7 @@ Table contact_stage_table(const std::vector<ContactRun>& runs)
     const auto of_bond = [](auto fe2d::BondLoad::*value) {
         return [=](const R& r) { return r.bond ? Cell(r.bond->*value) : Cell(); };
     };
-    if (std::any_of(rows.begin(), rows.end(), [](const R& r) { return r.bond != nullptr; })) {
+    if (std::ranges::any_of(rows, [](const R& r) { return r.bond != nullptr; })) {
         columns.push_back({{"t_max", "t_max", "–", 4}, of_bond(&fe2d::BondLoad::largest)});
         columns.push_back({{"t_limit", "t_LP", "–", 4}, of_bond(&fe2d::BondLoad::limit)});
         columns.push_back({{"jumps", "jumps"}, of_bond(&fe2d::BondLoad::jumps)});
@@ -190,7 +179,7 @@ Table contact_stage_table(const std::vector<ContactRun>& runs)
 
 namespace {
 
-constexpr std::size_t tied_lift_columns = 4; ///< the last of crack_columns()
+constexpr std::ptrdiff_t tied_lift_columns = 4; ///< the last of crack_columns()
 
 std::vector<ContactColumn> crack_columns()
 {
@@ -202,8 +191,8 @@ std::vector<ContactColumn> crack_columns()
     const auto of_lift = [](Cell (*value)(const fe2d::TiedLift&)) {
         return [=](const R& r) {
             const auto& lifts = r.fe.cracks.lifts;
-            const auto most = std::max_element(lifts.begin(), lifts.end(),
-                                               [](const auto& a, const auto& b) { return a.index < b.index; });
+            const auto most =
+                std::ranges::max_element(lifts, [](const auto& a, const auto& b) { return a.index < b.index; });
             return r.fe.cracks.known && most != lifts.end() ? value(*most) : Cell();
         };
     };
@@ -225,14 +214,38 @@ std::vector<ContactColumn> crack_columns()
 
 } // namespace
 
+namespace {
+
+using Fe = fe2d::RunResult;
+
+/// Of the run by finite elements: a value, a slip [mm], a count.
+auto of_fe(auto Fe::*value)
+{
+    return [=](const ContactRun& r) { return r.fe.*value; };
+}
+
+auto slip_of_fe(double Fe::*metres)
+{
+    return [=](const ContactRun& r) { return slip_cell(r, r.fe.*metres); };
+}
+
+auto counted(auto fe2d::DynamicCounts::*number)
+{
+    return [=](const ContactRun& r) { return r.fe.counts.*number; };
+}
+
+Cell rigid_slip_cell(const ContactRun& r)
+{
+    return r.rigid ? optional_cell(reported(r.rigid->status, r.rigid->slip), units::mm) : Cell();
+}
+
+} // namespace
+
 RunColumns::RunColumns(const std::optional<double>& allowable)
-    : record(record_column), polarity(polarity_column),
-      status{in_brief({"status", "status"}), [](const ContactRun& r) { return word(r.fe.status); }},
-      slip{{"slip_mm", "slip at end (mean of base)", "mm", 5},
-           [](const ContactRun& r) { return slip_cell(r, r.fe.slip); }},
-      modes_error{{"truncation_error_mm", "± modes", "mm", 2},
-                  [](const ContactRun& r) { return slip_cell(r, r.fe.truncation_error); }},
-      step_error{{"slip_error_mm", "± step", "mm", 2}, [](const ContactRun& r) { return slip_cell(r, r.fe.slip_error); }},
+    : status{in_brief({"status", "status"}), [](const ContactRun& r) { return word(r.fe.status); }},
+      slip{{"slip_mm", "slip at end (mean of base)", "mm", 5}, slip_of_fe(&Fe::slip)},
+      modes_error{{"truncation_error_mm", "± modes", "mm", 2}, slip_of_fe(&Fe::truncation_error)},
+      step_error{{"slip_error_mm", "± step", "mm", 2}, slip_of_fe(&Fe::slip_error)},
       mesh_error{{"mesh_error_mm", "± mesh", "mm", 2},
                  [](const ContactRun& r) { return slip_cell(r, slip_error(r).mesh); }},
       total_error{in_brief({"total_error_mm", "± total", "mm", 2}, "±"),
@@ -240,28 +253,23 @@ RunColumns::RunColumns(const std::optional<double>& allowable)
       error_parts{in_brief({"error_parts", "error includes"}),
                   [](const ContactRun& r) { return has_slip(r) ? Cell(slip_error(r).parts()) : Cell(); }},
       max_slip{in_brief({"max_slip_m", "largest slip on the way", "m", 5}, "largest slip"),
-               [](const ContactRun& r) { return optional_cell(reported(r.fe.status, r.fe.max_slip)); }},
-      rigid_slip{in_brief({"slip_rigid_mm", "rigid block at end", "mm", 5}, "rigid block"),
-                 [](const ContactRun& r) {
-                     return r.rigid ? optional_cell(reported(r.rigid->status, r.rigid->slip), units::mm) : Cell();
-                 }},
+               [](const ContactRun& r) { return reported(r.fe.status, r.fe.max_slip); }},
+      rigid_slip{in_brief({"slip_rigid_mm", "rigid block at end", "mm", 5}, "rigid block"), rigid_slip_cell},
       verdict{in_brief({"verdict", "verdict"}), [=](const ContactRun& r) { return word(verdict_of(r, allowable)); }},
-      modes{{"modes", "modes"}, [](const ContactRun& r) { return r.fe.modes; }},
-      highest_frequency{{"highest_frequency_Hz", "up to", "Hz", 4},
-                        [](const ContactRun& r) { return r.fe.highest_frequency; }},
-      steps{{"steps", "steps"}, [](const ContactRun& r) { return r.fe.counts.steps; }},
-      dt{{"dt_s", "step", "s", 4}, [](const ContactRun& r) { return r.fe.dt; }},
+      modes{{"modes", "modes"}, of_fe(&Fe::modes)}, highest_frequency{{"highest_frequency_Hz", "up to", "Hz", 4},
+                                                                      of_fe(&Fe::highest_frequency)},
+      steps{{"steps", "steps"}, counted(&fe2d::DynamicCounts::steps)}, dt{{"dt_s", "step", "s", 4}, of_fe(&Fe::dt)},
       correction{{"step_correction_mm", "correction", "mm", 3},
                  [](const ContactRun& r) { return r.fe.correction ? Cell(1e3 * r.fe.correction->slip) : Cell(); }},
       corrected_dt{{"corrected_dt_s", "to step", "s", 4},
                    [](const ContactRun& r) { return r.fe.correction ? Cell(r.fe.correction->dt) : Cell(); }},
-      unresolved{{"unresolved", "unresolved"}, [](const ContactRun& r) { return r.fe.counts.unresolved; }},
-      residual{{"residual", "residual", "–", 2}, [](const ContactRun& r) { return r.fe.counts.largest_residual; }},
-      energy_error{{"energy_error", "energy", "–", 2}, [](const ContactRun& r) { return r.fe.energy_error; }},
+      unresolved{{"unresolved", "unresolved"}, counted(&fe2d::DynamicCounts::unresolved)},
+      residual{{"residual", "residual", "–", 2}, counted(&fe2d::DynamicCounts::largest_residual)},
+      energy_error{{"energy_error", "energy", "–", 2}, of_fe(&Fe::energy_error)},
       seconds{{"seconds", "time", "s", 3},
               [](const ContactRun& r) { return r.fe.seconds.statics + r.fe.seconds.dynamics; }},
       slid_at_least{{"walked_at_least_m", "slid at least", "m", 5},
-                    [](const ContactRun& r) { return optional_cell(damslip::slid_at_least(r.fe.status, r.fe.slip)); }},
+                    [](const ContactRun& r) { return damslip::slid_at_least(r.fe.status, r.fe.slip); }},
       slip_in_words{ranking(slip.column, "slip at end"), [of_slip = slip.value](const ContactRun& r) {
                         const std::optional<double> at_least = damslip::slid_at_least(r.fe.status, r.fe.slip);
                         return at_least ? Cell(fmt::format("at least {:.4g}", 1e3 * *at_least)) : of_slip(r);
@@ -271,10 +279,10 @@ RunColumns::RunColumns(const std::optional<double>& allowable)
 
 Table crack_table(const std::vector<ContactRun>& runs)
 {
-    const bool tied = std::any_of(runs.begin(), runs.end(), [](const ContactRun& r) { return !r.fe.cracks.lifts.empty(); });
-    std::vector<ContactColumn> columns{record_column, polarity_column};
+    const bool tied = std::ranges::any_of(runs, [](const ContactRun& r) { return !r.fe.cracks.lifts.empty(); });
+    std::vector<ContactColumn> columns{record_of_run, polarity_of_run};
     for (ContactColumn& column : crack_columns()) columns.push_back(std::move(column));
-    if (!tied) columns.resize(columns.size() - tied_lift_columns);
+    if (!tied) columns.erase(columns.end() - tied_lift_columns, columns.end());
     std::vector<std::string> notes{
         "σ₁: largest principal tension away from base, joints and lifts, static state included, mean over about a "
         "characteristic length or over the element, whichever is larger. Dip of a crack across it: positive where it falls downstream."};
@@ -297,7 +305,7 @@ std::string crack_sentence(const std::vector<ContactRun>& runs)
     const std::string open = runs.empty() || runs.front().unsettled_cracks.empty()
                                  ? ""
                                  : fmt::format(" The path of {} is not settled: see Traced cracks.", runs.front().unsettled_cracks);
-    if (!most || std::none_of(runs.begin(), runs.end(), would_crack)) return open;
+    if (!most || std::ranges::none_of(runs, would_crack)) return open;
     if (!would_crack(*most)) return " A tied lift would slip or part: see the table of cracking.";
     if (!most->fe.cracks.paths.empty())
         return fmt::format(" The concrete would crack here, too: {}; no traced crack goes there.{}", crack_words(*most), open);
@@ -315,13 +323,12 @@ namespace {
 
 bool few_modes(const std::vector<ContactRun>& runs)
 {
-    return std::any_of(runs.begin(), runs.end(), [](const ContactRun& r) { return r.fe.modes > 0; });
+    return std::ranges::any_of(runs, [](const ContactRun& r) { return r.fe.modes > 0; });
 }
 
 std::string run_title(const std::vector<ContactRun>& runs)
 {
-    const bool gives_way =
-        std::any_of(runs.begin(), runs.end(), [](const ContactRun& r) { return r.exact.has_value(); });
+    const bool gives_way = std::ranges::any_of(runs, [](const ContactRun& r) { return r.exact.has_value(); });
     return fmt::format("Earthquake runs{}{}", few_modes(runs) ? ", reduced" : "", gives_way ? "" : ", exact contact");
 }
 
@@ -345,7 +352,7 @@ std::vector<std::string> run_notes(const std::vector<ContactRun>& runs, const st
 std::vector<ContactColumn> answer_columns(const RunColumns& c, const ContactColumn& slip,
                                           const std::vector<ContactRun>& runs)
 {
-    std::vector<ContactColumn> columns{c.record, c.polarity, c.status, slip};
+    std::vector<ContactColumn> columns{record_of_run, polarity_of_run, c.status, slip};
     if (few_modes(runs)) columns.push_back(c.modes_error);
     columns.insert(columns.end(),
                    {c.step_error, c.mesh_error, c.total_error, c.error_parts, c.max_slip, c.rigid_slip, c.verdict});
@@ -374,9 +381,9 @@ Table run_answer_table(const std::vector<ContactRun>& runs, const std::optional<
 Table run_solution_table(const std::vector<ContactRun>& runs, bool with_seconds)
 {
     const RunColumns c({});
-    std::vector<ContactColumn> columns{record_column, polarity_column};
+    std::vector<ContactColumn> columns{record_of_run, polarity_of_run};
     if (few_modes(runs)) columns.insert(columns.end(), {c.modes, c.highest_frequency});
-    const bool corrected = std::any_of(runs.begin(), runs.end(), [](const ContactRun& r) { return r.fe.correction.has_value(); });
+    const bool corrected = std::ranges::any_of(runs, [](const ContactRun& r) { return r.fe.correction.has_value(); });
     columns.insert(columns.end(), {c.steps, c.dt});
     if (corrected) columns.insert(columns.end(), {c.correction, c.corrected_dt});
     columns.insert(columns.end(), {c.unresolved, c.residual});
@@ -396,14 +403,14 @@ Table contact_slip_table(const std::vector<ContactRun>& runs)
     };
     const auto rocking = [](const R& r) {
         const std::vector<double>& all = r.fe.history.rocking;
-        return *std::max_element(all.begin(), all.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+        return *std::ranges::max_element(all, [](double a, double b) { return std::abs(a) < std::abs(b); });
     };
     using H = fe2d::RunHistory;
     return table_of<R>(
         "Slip along the base and rocking",
-        {record_column,
-         polarity_column,
-         {{"slip_mm", "slip at end (mean)", "mm", 5}, [](const R& r) { return slip_cell(r, r.fe.slip); }},
+        {record_of_run,
+         polarity_of_run,
+         {{"slip_mm", "slip at end (mean)", "mm", 5}, slip_of_fe(&Fe::slip)},
          {{"slip_heel_mm", "heel", "mm", 5}, last_of(&H::slip_heel)},
          {{"slip_middle_mm", "middle", "mm", 5}, last_of(&H::slip_middle)},
          {{"slip_toe_mm", "toe", "mm", 5}, last_of(&H::slip_toe)},
@@ -468,7 +475,7 @@ Table bond_table(const std::vector<ContactRun>& runs)
         for (std::size_t k = 0; k < r.fe.lifts.size(); ++k)
             if (r.fe.lifts[k].bond.bonded > 0.0) rows.push_back({r, r.fe.lifts[k], r.fe.history.lifts[k]});
     const auto first = [](const Row& r, const std::vector<double>& length, double least) {
-        const auto at = std::find_if(length.begin(), length.end(), [least](double x) { return x >= least && x > 0.0; });
+        const auto at = std::ranges::find_if(length, [least](double x) { return x >= least && x > 0.0; });
         return at == length.end() ? Cell() : Cell(r.run.fe.history.time[static_cast<std::size_t>(at - length.begin())]);
     };
     constexpr double all = 1.0 - 1e-9; // of the length: sums round
@@ -516,7 +523,10 @@ Table traced_table(const std::vector<TracedCrack>& cracks, const Scene& scene)
     return table_of<Row>(
         "Traced cracks",
         {{in_brief({"name", "name"}), [](const Row& r) { return r.crack.name; }},
-         {in_brief({"face", "from"}), [](const Row& r) { return std::string(r.crack.other ? "both faces" : r.crack.from_upstream ? "upstream" : "downstream"); }},
+         {in_brief({"face", "from"}),
+          [](const Row& r) {
+              return r.crack.other ? "both faces" : r.crack.from_upstream ? "upstream" : "downstream";
+          }},
          {in_brief({"start_y_m", "start", "m", 4}), [](const Row& r) { return r.path.front().y; }},
          {{"end_y_m", "other face", "m", 4}, [](const Row& r) { return r.path.back().y; }},
          {{"start_dip_deg", "dip at start", "°", 3}, [=](const Row& r) { return dip(r.path[0], r.path[1]); }},
@@ -525,10 +535,14 @@ Table traced_table(const std::vector<TracedCrack>& cracks, const Scene& scene)
          {{"passes", "passes"}, [](const Row& r) { return r.crack.passes; }},
          {in_brief({"path_change_m", "path ±", "m", 2}), [](const Row& r) { return r.crack.change; }},
          {in_brief({"settled", "settled"}),
-          [](const Row& r) { return std::string(r.crack.settled ? "yes" : r.crack.no_mesh ? "no: no mesh follows it" : "no"); }}},
+          [](const Row& r) {
+              const char* const no = r.crack.no_mesh ? "no: no mesh follows it" : "no";
+              return r.crack.settled ? "yes" : no;
+          }}},
         rows,
-        {"dip: positive where the path falls downstream; f_t at: when the concrete came to its strength at the start; path ±: what "
-         "drawing the path anew moved of its cracked part at last. How far it has cracked: Cracks along the lift joints."});
+        {"dip: positive where the path falls downstream; f_t at: when the concrete came to its strength at the start; "
+         "path ±: what drawing the path anew moved of its cracked part at last. How far it has cracked: Cracks along "
+         "the lift joints."});
 }
 
 Table contact_anchor_table(const std::vector<ContactRun>& runs)
@@ -541,35 +555,16 @@ Table contact_anchor_table(const std::vector<ContactRun>& runs)
 
 Table contact_event_table(const std::vector<ContactRun>& runs)
 {
-    struct Row {
-        const ContactRun& run;
-        const EventSlip& event;
-    };
-    std::vector<Row> rows;
+    std::vector<EventRow> rows;
     for (const ContactRun& run : runs)
-        for (const EventSlip& event : run.fe.events) rows.push_back({run, event});
-    const auto of_rigid = [](const Row& r, double EventSlip::*value) {
-        const auto place = static_cast<std::size_t>(&r.event - r.run.fe.events.data());
-        const bool known = r.run.rigid && place < r.run.rigid->events.size();
-        if (!known) return Cell();
-        const EventSlip& event = r.run.rigid->events[place];
-        return reported(event.status, event.slip) ? Cell(1e3 * event.*value) : Cell();
+        for (std::size_t i = 0; i < run.fe.events.size(); ++i)
+            rows.push_back({run.record, run.polarity, run.fe.events[i],
+                            run.rigid && i < run.rigid->events.size() ? &run.rigid->events[i] : nullptr});
+    const auto of_rigid = [](const EventRow& r) {
+        return r.rigid && reported(r.rigid->status, r.rigid->slip) ? Cell(1e3 * r.rigid->change) : Cell();
     };
-    return table_of<Row>(
-        "Slip by event",
-        {{{"record", "sequence"}, [](const Row& r) { return r.run.record; }},
-         {{"polarity", "polarity"}, [](const Row& r) { return Cell(r.run.polarity); }},
-         {{"event", "event"}, [](const Row& r) { return r.event.name; }},
-         {{"start_s", "from", "s", 6}, [](const Row& r) { return r.event.start; }},
-         {{"end_s", "to", "s", 6}, [](const Row& r) { return r.event.end; }},
-         {{"slip_of_event_mm", "slip of it", "mm", 5},
-          [](const Row& r) { return optional_cell(reported(r.event.status, r.event.change), units::mm); }},
-         {{"slip_so_far_mm", "slip so far", "mm", 5},
-          [](const Row& r) { return optional_cell(reported(r.event.status, r.event.slip), units::mm); }},
-         {{"status", "status"}, [](const Row& r) { return word(r.event.status); }},
-         {{"rigid_slip_of_event_mm", "rigid block, slip of it", "mm", 5},
-          [=](const Row& r) { return of_rigid(r, &EventSlip::change); }}},
-        rows, {"slip: mean of the base, positive downstream, the run to rest after each event included."});
+    return event_run_table(rows, {{{"rigid_slip_of_event_mm", "rigid block, slip of it", "mm", 5}, of_rigid}},
+                           "slip: mean of the base, positive downstream, the run to rest after each event included.");
 }
 
 Table contact_count_table(const std::vector<ContactRun>& runs)
@@ -578,13 +573,10 @@ Table contact_count_table(const std::vector<ContactRun>& runs)
     const auto steps_by = [](fe2d::ContactPath path) {
         return [=](const R& r) { return r.fe.counts.by_path[static_cast<int>(path)]; };
     };
-    const auto counted = [](int fe2d::DynamicCounts::*number) {
-        return [=](const R& r) { return r.fe.counts.*number; };
-    };
     using C = fe2d::DynamicCounts;
     return table_of<R>("Steps by how the contact was solved",
-                       {record_column,
-                        polarity_column,
+                       {record_of_run,
+                        polarity_of_run,
                         {{"steps", "steps"}, counted(&C::steps)},
                         {{"sub_steps", "sub-steps"}, [](const R& r) { return std::int64_t{1} << r.fe.halvings; }},
                         {{"newton", "Newton"}, steps_by(fe2d::ContactPath::newton)},
@@ -593,11 +585,11 @@ Table contact_count_table(const std::vector<ContactRun>& runs)
                         {{"lemke", "Lemke"}, steps_by(fe2d::ContactPath::lemke)},
                         {{"unresolved", "unresolved"}, counted(&C::unresolved)},
                         {{"halved", "halved"}, counted(&C::halved)},
-                        {{"residual", "residual", "–", 2}, [](const R& r) { return r.fe.counts.largest_residual; }},
+                        {{"residual", "residual", "–", 2}, counted(&C::largest_residual)},
                         {{"iterations", "iterations"}, counted(&C::contact_iterations)},
                         {{"largest_iterations", "largest"}, counted(&C::largest_iterations)},
                         {{"factorisations", "factorisations"}, counted(&C::factorisations)},
-                        {{"bytes", "bytes"}, [](const R& r) { return count_cell(r.fe.bytes); }}},
+                        {{"bytes", "bytes"}, of_fe(&Fe::bytes)}},
                        runs,
                        {"of the pass that is reported; sub-steps: by step of the record; halved: steps made in two "
                         "halves because they were not resolved whole; iterations: linear solutions of the contact "
@@ -621,7 +613,7 @@ double jump_loss(const ContactRun& run)
 Table contact_energy_table(const std::vector<ContactRun>& runs)
 {
     using R = ContactRun;
-    std::vector<ContactColumn> columns{record_column, polarity_column};
+    std::vector<ContactColumn> columns{record_of_run, polarity_of_run};
     std::vector<fe2d::Energy> ends;
     for (const R& r : runs)
         if (!r.fe.history.energy.empty()) ends.push_back(r.fe.history.energy.back());
@@ -631,7 +623,7 @@ Table contact_energy_table(const std::vector<ContactRun>& runs)
     columns.push_back(
         {{"imbalance_J_m", "imbalance", "J/m", 3}, [](const R& r) { return r.fe.history.imbalance.back(); }});
     columns.push_back({{"imbalance_share", "of the largest", "–", 2}, [](const R& r) { return r.fe.energy_error; }});
-    const bool jumped = std::any_of(runs.begin(), runs.end(), [](const R& r) { return jump_loss(r) > 0.0; });
+    const bool jumped = std::ranges::any_of(runs, [](const R& r) { return jump_loss(r) > 0.0; });
     if (jumped) columns.push_back({{"jump_loss_J_m", "static jumps, apart", "J/m", 6}, jump_loss});
     const bool of_joints = terms.size() > energy_columns().size();
     return table_of("Energy at the end", columns,
@@ -654,8 +646,8 @@ Table run_out_table(const std::vector<ContactRun>& runs)
     };
     return table_of<R>(
         "After the record",
-        {record_column,
-         polarity_column,
+        {record_of_run,
+         polarity_of_run,
          {{"shaking_slip_mm", "slip while shaken", "mm", 5}, figure(&F::slip_shaking, 1e3)},
          {{"run_out_slip_mm", "slip at rest", "mm", 5}, figure(&F::slip_at_rest, 1e3)},
          {{"end_rate_mm_s", "rate at end", "mm/s", 3}, figure(&F::rate, 1e3)},
@@ -688,9 +680,9 @@ Table contact_law_table(const std::vector<ContactRun>& runs)
         return e && *exact_slip(r) != 0.0 ? Cell(100.0 * *e / std::abs(*exact_slip(r))) : Cell();
     };
     return table_of<R>("Error of the contact law",
-                       {record_column,
-                        polarity_column,
-                        {{"slip_mm", "slip", "mm", 5}, [](const R& r) { return slip_cell(r, r.fe.slip); }},
+                       {record_of_run,
+                        polarity_of_run,
+                        {{"slip_mm", "slip", "mm", 5}, slip_of_fe(&Fe::slip)},
                         {{"slip_exact_mm", "slip, exact", "mm", 5}, [=](const R& r) { return in_mm(exact_slip(r)); }},
                         {{"status_exact", "exact run"}, [](const R& r) { return word(r.exact->status); }},
                         {{"law_error_mm", "error", "mm", 3}, [=](const R& r) { return in_mm(error(r)); }},

@@ -1,11 +1,14 @@
 #include "pages/fe/fe_pages.hpp"
 
 #include "core/units.hpp"
+#include "core/word_in.hpp"
+#include "pages/scene/scene_pages.hpp"
 #include "scene/joint_bond.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numeric>
 #include <ranges>
 
 namespace damslip::pages {
@@ -41,130 +44,103 @@ public:
     {
     }
 
-    Chart ground() const
+    void of_motion()
     {
-        Chart chart = empty("ground acceleration", "acceleration", "m/s²", 240);
-        add(chart, "horizontal, upstream", h_.ground_h, 1.0, 0);
-        if (std::any_of(h_.ground_v.begin(), h_.ground_v.end(), [](double a) { return a != 0.0; }))
-            add(chart, "vertical, up", h_.ground_v, 1.0, 1);
-        return chart;
-    }
+        begin("ground acceleration", "acceleration", "m/s²", 240);
+        add("horizontal, upstream", h_.ground_h, 1.0, 0);
+        if (std::ranges::any_of(h_.ground_v, [](double a) { return a != 0.0; }))
+            add("vertical, up", h_.ground_v, 1.0, 1);
 
-    Chart slip() const
-    {
-        Chart chart = empty("slip", "slip, downstream", "mm", 360);
-        add(chart, "FE, heel", h_.slip_heel, mm, 2);
-        add(chart, "FE, middle", h_.slip_middle, mm, 4);
-        add(chart, "FE, toe", h_.slip_toe, mm, 5);
-        add(chart, "FE, area mean", h_.slip, mm, 0, Weight::strong);
-        for (std::size_t k = 0; k < h_.lifts.size(); ++k) add(chart, lift_name(k), h_.lifts[k].slip, mm, k % 2 ? 6 : 3);
+        begin("slip", "slip, downstream", "mm", 360);
+        add("FE, heel", h_.slip_heel, mm, 2);
+        add("FE, middle", h_.slip_middle, mm, 4);
+        add("FE, toe", h_.slip_toe, mm, 5);
+        add("FE, area mean", h_.slip, mm, 0, Weight::strong);
+        for (std::size_t k = 0; k < h_.lifts.size(); ++k) add(lift_name(k), h_.lifts[k].slip, mm, k % 2 ? 6 : 3);
         if (view_.rigid) {
-            Curve rigid{"rigid block",
-                        view_.rigid->history.time,
-                        scaled(view_.rigid->history.slip, mm),
-                        {},
-                        {},
-                        Mark::dashed,
-                        Weight::strong,
-                        1};
-            on_grid(rigid);
-            chart.curves.push_back(std::move(rigid));
+            charts_.back().curves.push_back({.name = "rigid block",
+                                             .x = view_.rigid->history.time,
+                                             .y = scaled(view_.rigid->history.slip, mm),
+                                             .mark = Mark::dashed,
+                                             .weight = Weight::strong,
+                                             .colour = 1});
+            on_grid(charts_.back().curves.back());
+            charts_.back().note =
+                "The rigid block has the same uplift, water and added mass, and the vertical component "
+                "where the record has one.";
         }
         if (view_.allowable && std::abs(view_.run.fe.max_slip) > 0.2 * *view_.allowable)
-            chart.horizontal.push_back({*view_.allowable / mm, "allowable"});
-        chart.note = view_.rigid
-                         ? "The rigid block has the same uplift, water and added mass, and the vertical component "
-                           "where the record has one."
-                         : "";
-        return chart;
-    }
+            charts_.back().horizontal.push_back({*view_.allowable / mm, "allowable"});
 
-    Chart crest() const
-    {
-        Chart chart = empty("crest motion", "displacement, downstream", "mm", 280);
-        add(chart, "crest, relative to the ground", h_.crest_x, mm, 0);
+        begin("crest motion", "displacement, downstream", "mm", 280);
+        add("crest, relative to the ground", h_.crest_x, mm, 0);
         std::vector<double> lean = h_.crest_x;
         for (std::size_t i = 0; i < lean.size(); ++i) lean[i] -= h_.slip[i];
-        add(chart, "crest, relative to the base", lean, mm, 2);
-        return chart;
+        add("crest, relative to the base", lean, mm, 2);
     }
 
-    Chart forces() const
+    void of_base()
     {
-        Chart chart = empty("forces on the base", "force", "MN/m", 280);
-        add(chart, "effective normal force N'", h_.normal_force, 1e6, 0);
-        add(chart, "shear T, resists downstream slip", h_.shear_force, 1e6, 1);
-        return chart;
-    }
+        begin("forces on the base", "force", "MN/m", 280);
+        add("effective normal force N'", h_.normal_force, 1e6, 0);
+        add("shear T, resists downstream slip", h_.shear_force, 1e6, 1);
 
-    Chart anchors() const
-    {
-        Chart chart = empty("anchors", "force N", "kN/m", 240);
+        begin("anchors", "force N", "kN/m", 240);
         for (std::size_t k = 0; k < h_.anchors.size(); ++k)
-            add(chart, h_.anchors[k].name, h_.anchors[k].force, 1e3, static_cast<int>(k % 7));
-        return chart;
+            add(h_.anchors[k].name, h_.anchors[k].force, 1e3, static_cast<int>(k % 7));
+
+        begin("rocking", "rotation", "mrad", 240);
+        add("base over the rock", h_.rocking, 1e-3, 0);
+        for (std::size_t k = 0; k < h_.lifts.size(); ++k) add(lift_name(k), h_.lifts[k].rocking, 1e-3, k % 2 ? 6 : 3);
+        charts_.back().note = "Of what is above over what is below, positive where the upstream end opens.";
+
+        begin("sliding and open length of the base", "length", "m", 240);
+        add("slips", h_.slipping_length, 1.0, 1);
+        add("open", h_.open_length, 1.0, 0);
     }
 
-    Chart rocking() const
+    void of_energy()
     {
-        Chart chart = empty("rocking", "rotation", "mrad", 240);
-        add(chart, "base over the rock", h_.rocking, 1e-3, 0);
-        for (std::size_t k = 0; k < h_.lifts.size(); ++k)
-            add(chart, lift_name(k), h_.lifts[k].rocking, 1e-3, k % 2 ? 6 : 3);
-        chart.note = "Of what is above over what is below, positive where the upstream end opens.";
-        return chart;
-    }
-
-    Chart lengths() const
-    {
-        Chart chart = empty("sliding and open length of the base", "length", "m", 240);
-        add(chart, "slips", h_.slipping_length, 1.0, 1);
-        add(chart, "open", h_.open_length, 1.0, 0);
-        return chart;
-    }
-
-    Chart energy() const
-    {
-        Chart chart = empty("energy since the start of the shaking", "energy", "kJ/m", 360);
-        const auto term = [&](const char* name, double fe2d::Energy::*member, int colour, Mark mark = Mark::line) {
-            if (h_.energy.empty()) return;
-            std::vector<double> values;
-            values.reserve(h_.energy.size());
-            for (const fe2d::Energy& e : h_.energy) values.push_back(e.*member - h_.energy.front().*member);
-            add(chart, name, values, 1e3, colour);
-            chart.curves.back().mark = mark;
-        };
-        term("external work", &fe2d::Energy::external, 0);
-        term("kinetic", &fe2d::Energy::kinetic, 2);
-        term("strain", &fe2d::Energy::strain, 5);
-        term("friction, dissipated", &fe2d::Energy::friction, 1);
-        term("damping, dissipated", &fe2d::Energy::damping, 4);
-        term("scheme, dissipated", &fe2d::Energy::numerical, 3);
+        using E = fe2d::Energy;
+        begin("energy since the start of the shaking", "energy", "kJ/m", 360);
+        add_energy("external work", &E::external, 0);
+        add_energy("kinetic", &E::kinetic, 2);
+        add_energy("strain", &E::strain, 5);
+        add_energy("friction, dissipated", &E::friction, 1);
+        add_energy("damping, dissipated", &E::damping, 4);
+        add_energy("scheme, dissipated", &E::numerical, 3);
         if (!h_.energy.empty() && h_.energy.back().radiated != 0.0)
-            term("radiated by water and rock", &fe2d::Energy::radiated, 6);
-        const std::size_t before_joints = chart.curves.size();
-        const auto of_joints = [&](const char* name, double fe2d::Energy::*member, int colour) {
-            const auto there = [=](const fe2d::Energy& e) { return e.*member != 0.0; };
-            if (std::any_of(h_.energy.begin(), h_.energy.end(), there)) term(name, member, colour, Mark::dashed);
+            add_energy("radiated by water and rock", &E::radiated, 6);
+        const std::size_t plain = charts_.back().curves.size() + 2; // contact normal work and the imbalance
+        const auto of_joints = [&](const char* name, double E::*term, int colour) {
+            if (std::ranges::any_of(
+                    h_.energy, [](double value) { return value != 0.0; }, term))
+                add_energy(name, term, colour, Mark::dashed);
         };
-        of_joints("stored in joints", &fe2d::Energy::joint_stored, 5);
-        of_joints("bond, fracture", &fe2d::Energy::bond_fracture, 1);
-        of_joints("anchors, plastic", &fe2d::Energy::anchor_plastic, 3);
-        of_joints("anchors, snapped", &fe2d::Energy::anchor_loss, 2);
-        of_joints("impacts", &fe2d::Energy::impact, 4);
-        of_joints("water in joints", &fe2d::Energy::joint_water, 6);
-        const std::size_t plain = before_joints + 2; // this one and the imbalance
-        term("contact normal work", &fe2d::Energy::contact_normal, 7, Mark::dashed);
-        add(chart, "imbalance", h_.imbalance, 1e3, 7);
-        chart.note =
+        of_joints("stored in joints", &E::joint_stored, 5);
+        of_joints("bond, fracture", &E::bond_fracture, 1);
+        of_joints("anchors, plastic", &E::anchor_plastic, 3);
+        of_joints("anchors, snapped", &E::anchor_loss, 2);
+        of_joints("impacts", &E::impact, 4);
+        of_joints("water in joints", &E::joint_water, 6);
+        add_energy("contact normal work", &E::contact_normal, 7, Mark::dashed);
+        add("imbalance", h_.imbalance, 1e3, 7);
+        charts_.back().note =
             fmt::format("kinetic + strain + damping + scheme + friction + radiated = external + contact normal work; "
                         "what is left is the imbalance, at the end {:.1e} of the largest term.",
                         view_.run.fe.energy_error);
-        if (chart.curves.size() > plain)
-            chart.note +=
+        if (charts_.back().curves.size() > plain)
+            charts_.back().note +=
                 " What bonds, anchors and impacts store and spend counts on the left, the work of water in joints "
                 "on the right.";
-        return chart;
+    }
+
+    /// Those that have a curve.
+    std::vector<Chart> charts()
+    {
+        std::erase_if(charts_, [](const Chart& chart) { return chart.curves.empty(); });
+        for (Chart& chart : charts_) thin_for(chart, view_.records, run_samples, most_run_samples);
+        return std::move(charts_);
     }
 
 private:
@@ -174,22 +150,27 @@ private:
         return lift.name.empty() ? lift.plane : lift.name;
     }
 
-    Chart empty(const std::string& title, const std::string& label, const std::string& unit, int height) const
+    /// The next chart, which the curves that follow are of.
+    void begin(const std::string& title, const std::string& label, const std::string& unit, int height)
     {
-        Chart chart;
-        chart.title = view_.run.label() + ": " + title;
-        chart.x = {"time", "s"};
-        chart.y = {label, unit};
-        chart.height = height;
-        chart.together = view_.together;
-        return chart;
+        charts_.push_back(time_chart(view_.run.label() + ": " + title, {label, unit}, height));
+        charts_.back().together = view_.together;
     }
 
-    void add(Chart& chart, const std::string& name, const std::vector<double>& values, double unit, int colour,
-             Weight weight = Weight::normal) const
+    void add(const std::string& name, const std::vector<double>& values, double unit, int colour,
+             Weight weight = Weight::normal, Mark mark = Mark::line)
     {
         if (values.size() != time_.size()) return; // not kept by this kind of run
-        chart.curves.push_back({name, time_, scaled(values, unit), {}, {}, Mark::line, weight, colour});
+        charts_.back().curves.push_back(
+            {.name = name, .x = time_, .y = scaled(values, unit), .mark = mark, .weight = weight, .colour = colour});
+    }
+
+    void add_energy(const std::string& name, double fe2d::Energy::*term, int colour, Mark mark = Mark::line)
+    {
+        if (h_.energy.empty()) return;
+        std::vector<double> values;
+        for (const fe2d::Energy& e : h_.energy) values.push_back(e.*term - h_.energy.front().*term);
+        add(name, values, 1e3, colour, Weight::normal, mark);
     }
 
     /// Times of the block at the history's instants become those to the last bit.
@@ -204,23 +185,23 @@ private:
     const RunView& view_;
     const fe2d::RunHistory& h_;
     std::vector<double> time_;
+    std::vector<Chart> charts_;
 };
 
 } // namespace
 
 std::vector<Chart> history_charts(const RunView& view)
 {
-    const Charts make(view);
-    std::vector<Chart> charts{make.ground(),  make.slip(),    make.crest(),   make.forces(),
-                              make.anchors(), make.rocking(), make.lengths(), make.energy()};
-    std::erase_if(charts, [](const Chart& chart) { return chart.curves.empty(); });
-    for (Chart& chart : charts) { // so that a run of 20 s at 0.005 s is whole, and many long ones stay small
-        chart.thin_above = std::clamp<std::size_t>(16000 / std::max<std::size_t>(view.records, 1), 800, 4200);
-        chart.thin_buckets = chart.thin_above / (2 * chart.curves.size());
-    }
-    return charts;
+    Charts make(view);
+    make.of_motion();
+    make.of_base();
+    make.of_energy();
+    return make.charts();
 }
 
+namespace {
+
+/// The row of the history where the mean slip changes fastest; nothing where the dam does not slide.
 std::optional<std::size_t> fastest_row(const fe2d::RunHistory& h)
 {
     std::optional<std::size_t> row;
@@ -234,81 +215,95 @@ std::optional<std::size_t> fastest_row(const fe2d::RunHistory& h)
     return row;
 }
 
-namespace {
-
 constexpr std::size_t largest_instants = 150; ///< of one record alone
 
-/// Values of the pairs at one row of the history, in MPa.
-std::vector<double> row_values(const fe2d::PairHistory& pairs, const std::vector<double>& values, std::size_t row)
-{
-    std::vector<double> out;
-    for (Eigen::Index i = 0; i < pairs.pairs; ++i) out.push_back(1e-6 * values[pairs.at(row, i)]);
-    return out;
-}
+/// Pressures along the base, or of the water in it: some instants, and any of about 150 by a slider.
+template <class Value>
+class BaseChart {
+public:
+    /// @param values  of the pairs, row by row of the history [Pa]; outlives this
+    BaseChart(const RunView& view, const std::string& title, const std::string& quantity,
+              const std::vector<Value>& values)
+        : view_(view), values_(values), chart_{.title = view.run.label() + ": " + title,
+                                               .x = {"distance from the heel", "m"},
+                                               .y = {quantity, "MPa"},
+                                               .together = view.together + "base"}
+    {
+    }
 
-/// Every k-th row, the last one and the one of interest.
-std::vector<std::size_t> shown_rows(std::size_t rows, std::size_t largest, std::optional<std::size_t> also)
-{
-    const std::size_t every = std::max<std::size_t>(1, (rows + largest - 1) / largest);
-    std::vector<std::size_t> list;
-    for (std::size_t row = 0; row < rows; ++row)
-        if (row % every == 0 || row + 1 == rows || row == also) list.push_back(row);
-    return list;
-}
+    void add(const std::string& name, std::size_t row, int colour, Weight weight = Weight::normal)
+    {
+        const Eigen::VectorXd& distance = view_.run.fe.pair_distance;
+        chart_.curves.push_back({.name = name,
+                                 .x = {distance.begin(), distance.end()},
+                                 .y = in_MPa(row),
+                                 .weight = weight,
+                                 .colour = colour});
+    }
+
+    /// @param rows  the slider goes through @param first  drawn first
+    Chart with_slider(const std::vector<std::size_t>& rows, std::size_t first)
+    {
+        Moving moving{.curve = chart_.curves.size(), .label = "time", .unit = "s"};
+        for (const std::size_t row : rows) {
+            if (row == first) moving.start = moving.at.size();
+            moving.at.push_back(view_.run.fe.history.time[row]);
+            moving.y.push_back(in_MPa(row));
+        }
+        add("at the slider's time", first, 0, Weight::strong);
+        const auto [low, high] = std::ranges::minmax_element(values_);
+        const double bottom = std::min(0.0, 1e-6 * *low), top = 1e-6 * *high;
+        chart_.y.low = bottom - 0.04 * (top - bottom);
+        chart_.y.high = top + 0.04 * (top - bottom);
+        chart_.moving = std::move(moving);
+        return std::move(chart_);
+    }
+
+private:
+    std::vector<double> in_MPa(std::size_t row) const
+    {
+        const auto pairs = static_cast<std::size_t>(view_.run.fe.pair_distance.size());
+        std::vector<double> out;
+        for (std::size_t i = row * pairs; i < (row + 1) * pairs; ++i) out.push_back(1e-6 * values_[i]);
+        return out;
+    }
+
+    const RunView& view_;
+    const std::vector<Value>& values_;
+    Chart chart_;
+};
 
 Chart chart_of(const RunView& view, const std::string& what, const std::vector<double>& values)
 {
-    const fe2d::RunResult& fe = view.run.fe;
-    const fe2d::RunHistory& h = fe.history;
-    const std::vector<double> distance(fe.pair_distance.begin(), fe.pair_distance.end());
-    Chart chart;
-    chart.title = view.run.label() + ": " + what + " along the base";
-    chart.x = {"distance from the heel", "m"};
-    chart.y = {what.substr(0, what.find(',')), "MPa"}; // the title has the rest
-    chart.together = view.together + "base";
-    const auto add = [&](const std::string& name, std::size_t row, int colour, Mark mark, Weight weight) {
-        chart.curves.push_back({name, distance, row_values(h.by_pair, values, row), {}, {}, mark, weight, colour});
-    };
+    const fe2d::RunHistory& h = view.run.fe.history;
+    BaseChart chart(view, what + " along the base", what.substr(0, what.find(',')), values); // the title has the rest
     const std::optional<std::size_t> fastest = fastest_row(h);
-    add("start", 0, 7, Mark::line, Weight::normal);
-    if (fastest)
-        add(fmt::format("largest slip rate, {:.4g} s", h.time[*fastest]), *fastest, 1, Mark::line, Weight::normal);
-    add(fmt::format("end, {:.4g} s", h.time.back()), h.time.size() - 1, 2, Mark::line, Weight::normal);
-
-    Moving moving;
-    moving.label = "time";
-    moving.unit = "s";
+    chart.add("start", 0, 7);
+    if (fastest) chart.add(fmt::format("largest slip rate, {:.4g} s", h.time[*fastest]), *fastest, 1);
+    chart.add(fmt::format("end, {:.4g} s", h.time.back()), h.time.size() - 1, 2);
     const std::size_t largest = std::max<std::size_t>(20, largest_instants / view.records);
-    for (const std::size_t row : shown_rows(h.time.size(), largest, fastest)) {
-        if (row == fastest.value_or(0)) moving.start = moving.at.size();
-        moving.at.push_back(h.time[row]);
-        moving.y.push_back(row_values(h.by_pair, values, row));
-    }
-    moving.curve = chart.curves.size();
-    add("at the slider's time", fastest.value_or(0), 0, Mark::line, Weight::strong);
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    const double bottom = std::min(0.0, 1e-6 * static_cast<double>(*low)), top = 1e-6 * static_cast<double>(*high);
-    chart.y.low = bottom - 0.04 * (top - bottom);
-    chart.y.high = top + 0.04 * (top - bottom);
-    chart.moving = std::move(moving);
-    return chart;
+    const std::size_t every = std::max<std::size_t>(1, (h.time.size() + largest - 1) / largest);
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < h.time.size(); ++row)
+        if (row % every == 0 || row + 1 == h.time.size() || row == fastest) rows.push_back(row);
+    return chart.with_slider(rows, fastest.value_or(0));
 }
 
-char letter_of(fe2d::ContactState state)
+const char* letter(fe2d::ContactState state)
 {
-    switch (state) {
-    case fe2d::ContactState::stick:
-        return 's';
-    case fe2d::ContactState::slip_upstream:
-        return 'u';
-    case fe2d::ContactState::slip_downstream:
-        return 'd';
-    case fe2d::ContactState::open:
-        return 'o';
-    case fe2d::ContactState::pulled:
-        return 'p';
-    }
-    return 's';
+    return word_in(state, {{fe2d::ContactState::stick, "s"},
+                           {fe2d::ContactState::slip_downstream, "d"},
+                           {fe2d::ContactState::slip_upstream, "u"},
+                           {fe2d::ContactState::open, "o"},
+                           {fe2d::ContactState::pulled, "p"}});
+}
+
+/// One for each pair, from heel to toe.
+std::string letters_of(const fe2d::PairHistory& pairs, std::size_t row)
+{
+    std::string letters;
+    for (Eigen::Index i = 0; i < pairs.pairs; ++i) letters += letter(pairs.state[pairs.at(row, i)]);
+    return letters;
 }
 
 } // namespace
@@ -324,6 +319,36 @@ std::vector<Chart> base_charts(const RunView& view)
     return charts;
 }
 
+std::optional<Chart> base_water_chart(const RunView& view)
+{
+    const fe2d::RunResult& fe = view.run.fe;
+    const fe2d::RunHistory& h = fe.history;
+    if (!fe.base_water || h.joint_pressure.empty()) return std::nullopt;
+    const auto sum = [&, pairs = fe.pair_distance.size()](std::size_t row) {
+        const auto from = h.joint_pressure.begin() + static_cast<std::ptrdiff_t>(row) * pairs;
+        return std::accumulate(from, from + pairs, 0.0);
+    };
+    std::size_t least = 0, most = 0;
+    for (std::size_t row = 1; row < h.time.size(); ++row) {
+        if (sum(row) < sum(least)) least = row;
+        if (sum(row) > sum(most)) most = row;
+    }
+    const auto longest = static_cast<std::size_t>(std::ranges::max_element(h.crack_length) - h.crack_length.begin());
+    BaseChart chart(view, "water pressure in the joint", "water pressure", h.joint_pressure);
+    chart.add("before the earthquake", 0, 7);
+    chart.add(fmt::format("longest crack, {:.3g} m at {:.4g} s", h.crack_length[longest], h.time[longest]), longest, 1);
+    if (most != longest && most != 0) chart.add(fmt::format("largest uplift, {:.4g} s", h.time[most]), most, 3);
+    if (least != longest && least != 0) chart.add(fmt::format("least uplift, {:.4g} s", h.time[least]), least, 2);
+    const std::size_t largest = std::max<std::size_t>(20, largest_instants / view.records),
+                      every = std::max<std::size_t>(1, h.time.size() / largest);
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < h.time.size(); ++row)
+        if (row % every == 0 || row == longest) rows.push_back(row);
+    Chart shown = chart.with_slider(rows, longest);
+    shown.note = "Against the atmosphere, mean over the length that belongs to each contact pair.";
+    return shown;
+}
+
 std::optional<Chart> bond_chart(const RunView& view, const Scene& scene)
 {
     const fe2d::RunResult& fe = view.run.fe;
@@ -336,18 +361,14 @@ std::optional<Chart> bond_chart(const RunView& view, const Scene& scene)
     double broken = 0.0;
     for (std::size_t i = 0; i < values.size(); ++i)
         if (values[i] >= 1.0) broken += fe.pair_area[static_cast<Eigen::Index>(i)];
-    Chart chart;
-    chart.title = view.run.label() + ": bond along the base";
-    chart.x = {"distance from the heel", "m"};
-    chart.y = {"damage κ", "–"};
-    chart.y.low = 0.0;
-    chart.y.high = 1.05;
-    chart.height = 240;
-    chart.together = view.together + "base";
-    chart.curves.push_back({"at the end", distance, values, {}, {}, Mark::line, Weight::strong, 1});
-    chart.note = fmt::format("0: intact, 1: broken for good. At the end {:.3g} m of {:.3g} m are broken.", broken,
-                             fe.pair_area.sum());
-    return chart;
+    return Chart{.title = view.run.label() + ": bond along the base",
+                 .x = {"distance from the heel", "m"},
+                 .y = {.label = "damage κ", .unit = "–", .low = 0.0, .high = 1.05},
+                 .curves = {{.name = "at the end", .x = distance, .y = values, .weight = Weight::strong, .colour = 1}},
+                 .together = view.together + "base",
+                 .note = fmt::format("0: intact, 1: broken for good. At the end {:.3g} m of {:.3g} m are broken.",
+                                     broken, fe.pair_area.sum()),
+                 .height = 240};
 }
 
 StateMap base_states(const RunView& view)
@@ -360,13 +381,9 @@ StateMap base_states(const RunView& view)
     map.distance.assign(fe.pair_distance.begin(), fe.pair_distance.end());
     map.place = "from the heel";
     map.kinds = {{'s', "sticks", -1}, {'u', "slips upstream", 2}, {'d', "slips downstream", 1}, {'o', "open", 0}};
-    if (std::find(pairs.state.begin(), pairs.state.end(), fe2d::ContactState::pulled) != pairs.state.end())
+    if (std::ranges::find(pairs.state, fe2d::ContactState::pulled) != pairs.state.end())
         map.kinds.push_back({'p', "pulled (the joint may not open)", 3});
-    for (std::size_t row = 0; row < map.time.size(); ++row) {
-        std::string letters;
-        for (Eigen::Index i = 0; i < pairs.pairs; ++i) letters += letter_of(pairs.state[pairs.at(row, i)]);
-        map.states.push_back(std::move(letters));
-    }
+    for (std::size_t row = 0; row < map.time.size(); ++row) map.states.push_back(letters_of(pairs, row));
     map.note =
         "Each cell is a contact pair at an instant of the record; where several share a pixel, open counts before "
         "slip, slip before stick.";
@@ -377,29 +394,22 @@ StateMap base_states(const RunView& view)
 
 namespace {
 
-char letter(fe2d::ContactState state)
-{
-    switch (state) {
-    case fe2d::ContactState::stick:
-        return 's';
-    case fe2d::ContactState::slip_downstream:
-        return 'd';
-    case fe2d::ContactState::slip_upstream:
-        return 'u';
-    case fe2d::ContactState::open:
-        return 'o';
-    case fe2d::ContactState::pulled:
-        return 'p';
-    }
-    return '?';
-}
-
 using RowColumn = ColumnOf<std::size_t>; ///< of the rows of a history
 
 /// One of its values in each row. @param values  outlives this
 auto of(const std::vector<double>& values)
 {
     return [&values](std::size_t row) { return values[row]; };
+}
+
+/// None where it is empty. @param h  outlives them
+std::vector<RowColumn> slide_columns(const fe2d::SlideHistory& h)
+{
+    if (h.rate.empty()) return {};
+    return {{{"thrust_over_friction", "χ", "–", 4}, of(h.thrust_over_friction)},
+            {{"hops", "lift-offs", "", 6}, of(h.lift_offs)},
+            {{"unloaded_share", "unloaded", "–", 4}, of(h.unloaded_share)},
+            {{"slip_rate_m_s", "slip rate", "m/s", 4}, of(h.rate)}};
 }
 
 std::vector<RowColumn> history_columns(const fe2d::RunHistory& h)
@@ -453,15 +463,6 @@ std::vector<RowColumn> history_columns(const fe2d::RunHistory& h)
 
 } // namespace
 
-std::vector<ColumnOf<std::size_t>> slide_columns(const fe2d::SlideHistory& h)
-{
-    if (h.rate.empty()) return {};
-    return {{{"thrust_over_friction", "χ", "–", 4}, of(h.thrust_over_friction)},
-            {{"hops", "lift-offs", "", 6}, of(h.lift_offs)},
-            {{"unloaded_share", "unloaded", "–", 4}, of(h.unloaded_share)},
-            {{"slip_rate_m_s", "slip rate", "m/s", 4}, of(h.rate)}};
-}
-
 Table contact_history_table(const fe2d::RunHistory& h)
 {
     return table_of("", history_columns(h), std::views::iota(std::size_t{0}, h.time.size()));
@@ -507,17 +508,13 @@ Table pair_table(const fe2d::RunResult& r, std::size_t largest)
          {{"shear_Pa", "shear", "Pa", 6}, kept(p.shear)},
          {{"slip_m", "slip", "m", 6}, kept(p.slip)},
          {{"opening_m", "opening", "m", 6}, kept(p.opening)},
-         {{"state", "state"}, [&](const Row& row) { return std::string(1, letter(p.state[row.place])); }}},
+         {{"state", "state"}, [&](const Row& row) { return letter(p.state[row.place]); }}},
         rows);
 }
 
 Table state_map(const fe2d::RunHistory& h)
 {
-    const auto states = [&h](std::size_t row) {
-        std::string letters;
-        for (Eigen::Index i = 0; i < h.by_pair.pairs; ++i) letters += letter(h.by_pair.state[h.by_pair.at(row, i)]);
-        return letters;
-    };
+    const auto states = [&h](std::size_t row) { return letters_of(h.by_pair, row); };
     return table_of<std::size_t>(
         "", {{{"time_s", "time", "s", 6}, of(h.time)}, {{"states_heel_to_toe", "states, heel to toe"}, states}},
         std::views::iota(std::size_t{0}, h.by_pair.pairs ? h.time.size() : 0));

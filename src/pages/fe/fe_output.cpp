@@ -2,14 +2,13 @@
 
 #include "analysis/prepare/ready.hpp"
 #include "core/file.hpp"
-#include "core/units.hpp"
 #include "fe2d/model/static_solution.hpp"
 #include "fe2d/output/vtu.hpp"
 #include "pages/report/page.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
-#include "scene/write.hpp"
 #include "scene/planes.hpp"
+#include "scene/write.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -81,12 +80,6 @@ Verdict joined_verdict(const Headline& headline, const std::vector<ContactRun>& 
     return headline.outcome == Outcome::fail ? Verdict::fail : verdict_of(runs, allowable);
 }
 
-void end_fe_answer(const std::vector<std::string>& messages, Answer& answer)
-{
-    answer.set("messages", messages);
-    for (const std::string& message : messages) answer.note(message);
-}
-
 std::string run_file(const std::string& kind, const Scene& scene, const std::string& record, const std::string& suffix)
 {
     std::vector<std::string> names;
@@ -129,7 +122,7 @@ namespace {
 /// What does not change from frame to frame.
 class FrameWriter {
 public:
-    FrameWriter(const FrameModel& of, std::filesystem::path folder, const Eigen::VectorXd& zero)
+    FrameWriter(const FeReport::Input& of, std::filesystem::path folder, const Eigen::VectorXd& zero)
         : of_(of), folder_(std::move(folder)), zero_(zero), dam_(fe2d::part_of(mesh(), 0, mesh().dam_element_count)),
           rock_(fe2d::part_of(mesh(), mesh().dam_element_count, mesh().element_count()))
     {
@@ -226,7 +219,7 @@ private:
                                {"state", row(states)}});
     }
 
-    const FrameModel& of_;
+    const FeReport::Input& of_;
     std::filesystem::path folder_;
     const Eigen::VectorXd& zero_;
     fe2d::MeshPart dam_, rock_;
@@ -237,7 +230,7 @@ private:
 
 } // namespace
 
-std::string write_frames(const std::filesystem::path& folder, const FrameModel& of, const ContactRun& run)
+std::string write_frames(const std::filesystem::path& folder, const FeReport::Input& of, const ContactRun& run)
 {
     const fe2d::FrameSpool* frames = run.fe.history.frames.get();
     if (!frames || frames->count() == 0) return {};

@@ -2,6 +2,7 @@
 
 #include "analysis/prepare/ready.hpp"
 #include "core/units.hpp"
+#include "core/word_in.hpp"
 #include "fe2d/mesh/faces.hpp"
 #include "fe2d/model/static_solution.hpp"
 #include "pages/scene/scene_pages.hpp"
@@ -19,29 +20,23 @@ Page begin_fe_page(const FePageFrame& in)
     Page page = begin_page(in.scene, "Sliding in an earthquake: " + in.kind + ". " + (first ? *first + ". " : ""),
                            in.plan.scene_hash);
     page.warnings = record_warnings(in.records);
-    page.sections.push_back(
-        {"Section", {section_drawing(in.scene, in.uplift, dam_mesh_lines(in.model.mesh))}, Fold::open});
+    page.sections.push_back({"Section", {section_drawing(in.scene, in.uplift, dam_mesh_lines(in.model.mesh))}});
     return page;
 }
 
 void end_fe_page(const FePageFrame& in, const std::vector<GroundMotion>& motions, const std::vector<Table>& tables,
                  Page& page)
 {
-    if (!motions.empty())
-        page.sections.push_back({"Records", {record_part(record_table(motions)), spectra(motions, 1)}, Fold::open});
+    if (!motions.empty()) page.sections.push_back(records_section(motions, 1));
     Section model{"Model and solution",
                   {effect_part(in.plan),
                    rows_part(count_table(in.model.counts, in.water),
                              {"Elements and unknowns by what they are for; non-zeros: stored entries of stiffness and "
-                              "mass that would not be there without it; bytes: of what is stored for it."})},
-                  Fold::open};
+                              "mass that would not be there without it; bytes: of what is stored for it."})}};
     for (const Table& table : tables) model.parts.push_back(rows_part(table));
     page.sections.push_back(std::move(model));
     page.sections.push_back(limits_section(in.scene, Method::finite_elements));
-    page.sections.push_back({"Scene", {scene_listing(in.scene)}, Fold::open});
-    page.provenance = scene_provenance(in.scene, in.plan.scene_hash);
-    page.provenance.emplace_back("method", in.method);
-    add_record_provenance(in.records, page.provenance);
+    end_page(in.scene, in.records, page, {{"method", in.method}}, in.plan.scene_hash);
 }
 
 std::vector<Section> add_worse_polarities(const std::vector<ContactRun>& runs, std::vector<Section> sections,
@@ -50,7 +45,7 @@ std::vector<Section> add_worse_polarities(const std::vector<ContactRun>& runs, s
     std::vector<Section> others;
     std::size_t shown = 0;
     for (std::size_t i = 0; i < sections.size(); ++i) {
-        const bool worst = std::none_of(runs.begin(), runs.end(), [&](const ContactRun& r) {
+        const bool worst = std::ranges::none_of(runs, [&](const ContactRun& r) {
             return r.record == runs[i].record && (milder(runs[i], r) || (!milder(r, runs[i]) && &r < &runs[i]));
         });
         if (worst) {
@@ -69,21 +64,13 @@ namespace {
 
 constexpr double MPa = 1e6;
 
-std::string words(fe2d::Instant instant)
+const char* words(fe2d::Instant instant)
 {
-    switch (instant) {
-    case fe2d::Instant::start:
-        return "before the earthquake";
-    case fe2d::Instant::leans_downstream:
-        return "crest farthest downstream of the base";
-    case fe2d::Instant::leans_upstream:
-        return "crest farthest upstream of the base";
-    case fe2d::Instant::slides_fastest:
-        return "largest slip rate";
-    case fe2d::Instant::end:
-        return "end";
-    }
-    return "";
+    return word_in(instant, {{fe2d::Instant::start, "before the earthquake"},
+                             {fe2d::Instant::leans_downstream, "crest farthest downstream of the base"},
+                             {fe2d::Instant::leans_upstream, "crest farthest upstream of the base"},
+                             {fe2d::Instant::slides_fastest, "largest slip rate"},
+                             {fe2d::Instant::end, "end"}});
 }
 
 /// von Mises stress in plane strain, with σ_zz = ν (σ_xx + σ_yy) [Pa].
@@ -111,39 +98,35 @@ std::vector<Polyline> dam_mesh_lines(const fe2d::Mesh& mesh)
     return lines;
 }
 
-StressView::StressView(const fe2d::EarthquakeRun& run) : run_(run)
+MeshView stress_view(const fe2d::EarthquakeRun& run)
 {
     const fe2d::Mesh& mesh = run.model().mesh;
-    view_.title = "Stresses on the deformed mesh";
-    view_.nodes = mesh.nodes;
-    for (const fe2d::Element& e : mesh.elements) view_.elements.push_back(e.nodes);
-    view_.front_nodes = static_cast<std::size_t>(mesh.dam_node_count);
-    view_.fields = {{"major principal stress, tension positive", "MPa"},
-                    {"minor principal stress, tension positive", "MPa", true},
-                    {"vertical stress, tension positive", "MPa"},
-                    {"von Mises stress", "MPa"}};
-    view_.note =
+    MeshView view;
+    view.title = "Stresses on the deformed mesh";
+    view.nodes = mesh.nodes;
+    for (const fe2d::Element& e : mesh.elements) view.elements.push_back(e.nodes);
+    view.front_nodes = static_cast<std::size_t>(mesh.dam_node_count);
+    view.fields = {{"major principal stress, tension positive", "MPa"},
+                   {"minor principal stress, tension positive", "MPa", true},
+                   {"vertical stress, tension positive", "MPa"},
+                   {"von Mises stress", "MPa"}};
+    view.note =
         "Total stresses: gravity, water and earthquake. Deformations are magnified, the dam's mean slip is drawn "
         "to scale; dashed: the dam before any load. First shown is the instant with the largest tension in the dam; "
         "the envelope is of the instants that are kept of each run, so between them a stress may be larger. The "
         "colours end where 1 % of the dam's values lie beyond, since stresses in corners grow with every finer mesh.";
+    return view;
 }
 
-void StressView::add(const std::string& record, const fe2d::RunResult& result)
-{
-    for (const fe2d::StoredState& state : result.history.states.states()) {
-        const bool start = state.instant == fe2d::Instant::start;
-        if (start && !empty()) continue;
-        add_state(start ? words(state.instant) : record + ": " + words(state.instant), state, result.zero_displacement);
-    }
-}
+namespace {
 
-void StressView::add_state(const std::string& name, const fe2d::StoredState& state, const Eigen::VectorXd& zero)
+MeshView::State stress_state(const fe2d::EarthquakeRun& run, const std::string& name, const fe2d::StoredState& state,
+                             const Eigen::VectorXd& zero)
 {
-    const fe2d::Model& model = run_.model();
-    const Eigen::VectorXd u = run_.displacement_of(state);
+    const fe2d::Model& model = run.model();
+    const Eigen::VectorXd u = run.displacement_of(state);
     const fe2d::StressField stress = fe2d::stress_field(model, u);
-    const Eigen::Vector2d shift = state.slip * run_.structure().plane().tangent;
+    const Eigen::Vector2d shift = state.slip * run.structure().plane().tangent;
     const Eigen::MatrixXd at_nodes = node_vectors(model.dofs, zero.size() ? Eigen::VectorXd(u - zero) : u);
 
     MeshView::State shown;
@@ -151,7 +134,7 @@ void StressView::add_state(const std::string& name, const fe2d::StoredState& sta
     shown.time = state.time;
     shown.shift_x = shift.x();
     shown.shift_y = shift.y();
-    shown.values.resize(view_.fields.size());
+    shown.values.resize(4); // stress_view()
     for (int node = 0; node < model.mesh.node_count(); ++node) {
         const bool dam = node < model.mesh.dam_node_count;
         shown.ux.push_back(at_nodes(0, node) - (dam ? shift.x() : 0.0));
@@ -164,7 +147,20 @@ void StressView::add_state(const std::string& name, const fe2d::StoredState& sta
         shown.values[2].push_back(s[1] / MPa);
         shown.values[3].push_back(von_mises(s, dam ? m.dam.poisson_ratio : m.rock.poisson_ratio) / MPa);
     }
-    view_.states.push_back(std::move(shown));
+    return shown;
+}
+
+} // namespace
+
+void add_stresses(const fe2d::EarthquakeRun& run, const std::string& record, const fe2d::RunResult& result,
+                  MeshView& view)
+{
+    for (const fe2d::StoredState& state : result.history.states.states()) {
+        const bool start = state.instant == fe2d::Instant::start;
+        if (start && !view.states.empty()) continue;
+        const std::string name = start ? words(state.instant) : record + ": " + words(state.instant);
+        view.states.push_back(stress_state(run, name, state, result.zero_displacement));
+    }
 }
 
 Table mesh_table(const fe2d::Mesh& mesh)
@@ -176,12 +172,12 @@ Table mesh_table(const fe2d::Mesh& mesh)
     const std::vector<Row> rows{{mesh, fe2d::measure_quality(mesh)}};
     Table t = table_of<Row>(
         "Mesh",
-        {{in_brief({"nodes", "nodes"}), [](const Row& r) { return count_cell(r.mesh.nodes.size()); }},
+        {{in_brief({"nodes", "nodes"}), [](const Row& r) { return r.mesh.nodes.size(); }},
          {in_brief({"quadrilaterals", "quadrilaterals"}), [](const Row& r) { return r.quality.quadrilaterals; }},
          {in_brief({"triangles", "triangles"}), [](const Row& r) { return r.quality.triangles; }},
          {in_brief({"dam_elements", "in the dam"}), [](const Row& r) { return r.mesh.dam_element_count; }},
-         {in_brief({"base_nodes_dam", "base, dam"}), [](const Row& r) { return count_cell(r.mesh.contact.dam_nodes.size()); }},
-         {in_brief({"base_nodes_rock", "base, rock"}), [](const Row& r) { return count_cell(r.mesh.contact.rock_nodes.size()); }},
+         {in_brief({"base_nodes_dam", "base, dam"}), [](const Row& r) { return r.mesh.contact.dam_nodes.size(); }},
+         {in_brief({"base_nodes_rock", "base, rock"}), [](const Row& r) { return r.mesh.contact.rock_nodes.size(); }},
          {{"smallest_edge_m", "smallest edge", "m", 4}, [](const Row& r) { return r.quality.smallest_edge; }},
          {{"largest_edge_m", "largest edge", "m", 4}, [](const Row& r) { return r.quality.largest_edge; }},
          {in_brief({"smallest_angle_deg", "smallest angle", "deg", 4}),

@@ -12,7 +12,6 @@
 #include "fe2d/model/model.hpp"
 #include "fe2d/output/vtu.hpp"
 #include "fe2d/run/earthquake_run.hpp"
-#include "pages/report/json.hpp"
 #include "pages/report/answer.hpp"
 #include "pages/report/page.hpp"
 #include "scene/effect_plan.hpp"
@@ -32,6 +31,10 @@ namespace damslip::pages {
 /// A slip of the run [mm]; nothing where its status has none.
 Cell slip_cell(const ContactRun& run, double metres);
 
+/// How rows of runs begin.
+inline const ColumnOf<ContactRun> record_of_run{in_brief({"record", "record"}), &ContactRun::record},
+    polarity_of_run{in_brief({"polarity", "polarity"}), &ContactRun::polarity};
+
 /// The terms of the energy, as tables and files have them.
 const std::vector<ColumnOf<fe2d::Energy>>& energy_columns();
 /// The same, and those of the joints' laws that are not zero in some row.
@@ -42,8 +45,9 @@ struct RunColumns {
     using C = ColumnOf<ContactRun>;
     explicit RunColumns(const std::optional<double>& allowable); ///< slip [m]
 
-    C record, polarity, status, slip, modes_error, step_error, mesh_error, total_error, error_parts, max_slip, rigid_slip, verdict,
-        modes, highest_frequency, steps, dt, correction, corrected_dt, unresolved, residual, energy_error, seconds, slid_at_least;
+    C status, slip, modes_error, step_error, mesh_error, total_error, error_parts, max_slip, rigid_slip, verdict, modes,
+        highest_frequency, steps, dt, correction, corrected_dt, unresolved, residual, energy_error, seconds,
+        slid_at_least;
     C slip_in_words; ///< for people: "at least 512" of a dam that goes on by itself
 };
 
@@ -85,9 +89,6 @@ std::string crack_sentence(const std::vector<ContactRun>& runs);
 /// normal contact err by.
 Table contact_law_table(const std::vector<ContactRun>& runs);
 
-/// Columns over the rows of a history, none where it is empty. @param history  outlives them
-std::vector<ColumnOf<std::size_t>> slide_columns(const fe2d::SlideHistory& history);
-
 // Of one run.
 Table contact_history_table(const fe2d::RunHistory& history);
 Table base_table(const fe2d::RunResult& result); ///< the pairs at the end
@@ -111,12 +112,12 @@ struct RunView {
     std::size_t records = 1;                     ///< runs in the report: the more, the fewer samples each chart keeps
 };
 
+/// thin_for() of their charts: a run of 20 s at 0.005 s is whole, and many long ones stay small.
+inline constexpr std::size_t run_samples = 16000, most_run_samples = 4200;
+
 /// Ground acceleration, slip beside the rigid block's, crest, forces on the base, rocking and opening, energy ledger. All
 /// since the static state.
 std::vector<Chart> history_charts(const RunView& view);
-
-/// The row of the history where the mean slip changes fastest; nothing where the dam does not slide.
-std::optional<std::size_t> fastest_row(const fe2d::RunHistory& history);
 
 /// Contact pressure and shear from heel to toe: at the start, when the dam slides fastest, at the end, and at any of about
 /// 150 instants by a slider.
@@ -137,7 +138,7 @@ struct FePageFrame {
     const std::vector<RecordPair>& records;
     const fe2d::Model& model;
     const fe2d::FluidModel* water; ///< acoustic; null: none
-    PressureProfile uplift;        ///< under the base before the earthquake; empty: none
+    PressureProfile uplift = {};   ///< under the base before the earthquake; empty: none, or taken with the loads
     std::string kind;              ///< for the subtitle: "finite elements with contact"
     std::string method;            ///< for the provenance
     bool slides = true;            ///< false: the base is bonded
@@ -161,24 +162,11 @@ void end_fe_page(const FePageFrame& frame, const std::vector<GroundMotion>& moti
 /// Element sides of the dam, each once.
 std::vector<Polyline> dam_mesh_lines(const fe2d::Mesh& mesh);
 
-/// Stresses of the kept states of runs on the deformed mesh.
-class StressView {
-public:
-    /// @param run  outlives this
-    explicit StressView(const fe2d::EarthquakeRun& run);
-
-    /// The kept states of one run, its start only for the first run.
-    void add(const std::string& record, const fe2d::RunResult& result);
-
-    bool empty() const { return view_.states.empty(); }
-    const MeshView& view() const { return view_; }
-
-private:
-    void add_state(const std::string& name, const fe2d::StoredState& state, const Eigen::VectorXd& zero);
-
-    const fe2d::EarthquakeRun& run_;
-    MeshView view_;
-};
+/// Stresses on the deformed mesh, without a state yet.
+MeshView stress_view(const fe2d::EarthquakeRun& run);
+/// Adds the kept states of one run, its start only as the first of all.
+void add_stresses(const fe2d::EarthquakeRun& run, const std::string& record, const fe2d::RunResult& result,
+                  MeshView& view);
 
 /// Numbers, sizes and shapes of a mesh, in one row.
 Table mesh_table(const fe2d::Mesh& mesh);
@@ -207,9 +195,6 @@ Answer begin_fe_answer(const FePageFrame& frame);
 Verdict joined_verdict(const Headline& headline, const std::vector<ContactRun>& runs,
                        const std::optional<double>& allowable);
 
-/// Messages last; in the text as notes.
-void end_fe_answer(const std::vector<std::string>& messages, Answer& answer);
-
 /// Name of a file of one run, without its ending: "history_El_Centro_NS_+1". Records
 /// whose names would give the same file get a hash of the name.
 std::string run_file(const std::string& kind, const Scene& scene, const std::string& record,
@@ -236,25 +221,6 @@ private:
 void write_fe_files(const std::filesystem::path& folder, const Scene& scene, const Answer& answer,
                     const FieldSeries& fields, const Page& page);
 
-/// A run over time for ParaView.
-
-/// What all runs of a scene share.
-struct FrameModel {
-    const Scene& scene; ///< as the plan calls for it
-    const fe2d::EarthquakeRun& model;
-    const PressureProfile& uplift; ///< under the base before the earthquake
-};
-
-/// Writes the frames of a run (RunHistory::frames), one after the other so that one is held at a time: for each a .vtm with
-/// the blocks dam, rock, water (acoustic) and joints, and over all of them <folder>/frames_<record>.pvd with times in s.
-///
-/// Dam and rock: displacement_m (from where the run counts it), stresses. Water: pressure_Pa beyond the static one. Joints,
-/// lines from heel to toe and along lift joints: opening_m, slip_m since the static state, normal_pressure_Pa (effective,
-/// compression positive), shear_Pa (on the part above, positive where it resists downstream slip), water_pressure_Pa,
-/// state (0 sticks, 1 slips downstream, 2 upstream, 3 open, 4 pulled).
-/// @returns the name of the .pvd; empty: the run has no frames @throws InputError when a file cannot be written
-std::string write_frames(const std::filesystem::path& folder, const FrameModel& of, const ContactRun& run);
-
 /// An FE contact run as the report that is handed in.
 
 /// The whole answer in one sentence with its verdict (verdict_of), the worst run named. FAIL: no equilibrium before or after
@@ -264,10 +230,6 @@ std::string write_frames(const std::filesystem::path& folder, const FrameModel& 
 /// @param combinations  Ready::combinations()
 Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs,
                      const std::vector<sliding::Equilibrium>& combinations = {});
-
-/// Slips, friction, opening of the worst run: for the top of the page.
-std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& scene,
-                                                                const std::vector<ContactRun>& runs);
 
 /// Takes the runs one after the other, so that the values of the pairs over time need to be there for one at a time only.
 class FeReport {
@@ -295,25 +257,26 @@ public:
 
 private:
     Input in_;
-    StressView stresses_;
+    MeshView stresses_;
     std::size_t stress_records_ = 0;
     std::vector<Section> sections_;
     std::vector<GroundMotion> motions_;
 };
 
-/// What the page, and the answer, of contact runs begin from.
-FePageFrame contact_frame(const FeReport::Input& input, const std::vector<ContactRun>& runs);
+/// Writes the frames of a run (RunHistory::frames), one after the other so that one is held at a time: for each a .vtm with
+/// the blocks dam, rock, water (acoustic) and joints, and over all of them <folder>/frames_<record>.pvd with times in s.
+///
+/// Dam and rock: displacement_m (from where the run counts it), stresses. Water: pressure_Pa beyond the static one. Joints,
+/// lines from heel to toe and along lift joints: opening_m, slip_m since the static state, normal_pressure_Pa (effective,
+/// compression positive), shear_Pa (on the part above, positive where it resists downstream slip), water_pressure_Pa,
+/// state (0 sticks, 1 slips downstream, 2 upstream, 3 open, 4 pulled).
+/// @returns the name of the .pvd; empty: the run has no frames @throws InputError when a file cannot be written
+std::string write_frames(const std::filesystem::path& folder, const FeReport::Input& of, const ContactRun& run);
 
-/// What has to be said of scene and runs beside the tables.
-/// @param of_rock  warnings on the rock
-/// Notes on the base: the rigid base first, then what is unusual in the scene.
-std::vector<std::string> base_notes(const Scene& scene);
-/// A sentence for each run that needs one, in the order of the runs. One self-excited run (the worst, or else the first) explains the
-/// cause and the remedy; the sentences of the others give how far the dam slid.
-std::vector<std::string> run_sentences(const std::vector<ContactRun>& runs);
 /// Adds a message for each run that did not come to rest, or came to rest after ratcheting.
 void add_run_messages(const std::vector<ContactRun>& runs, std::vector<std::string>& messages);
 
+/// What has to be said of scene and runs beside the tables. @param of_rock  warnings on the rock
 std::vector<std::string> contact_messages(const Scene& scene, const std::vector<ContactRun>& runs,
                                           const std::vector<std::string>& of_rock);
 
@@ -338,10 +301,7 @@ std::string rock_line(const Scene& scene, const fe2d::EarthquakeRun& model);
 /// {"model", "words"} and of radiating rock density, frequency, modes, error, gate, unknowns, seconds, origin.
 nlohmann::ordered_json rock_json(const Scene& scene, const fe2d::EarthquakeRun& model);
 
-/// What is to be known of radiating rock: a gate that was failed, what an inclined base and a curtain leave out.
-std::vector<std::string> radiating_messages(const Scene& scene, const fe2d::EarthquakeRun& model);
-
-/// The same, what the bond asks of the mesh, and what the waves of each record ask of box and mesh (rock_warnings()): the lines of all runs of one
+/// What is to be known of radiating rock, what the bond asks of the mesh, and what the waves of each record ask of box and mesh (rock_warnings()): the lines of all runs of one
 /// model.
 class ModelNotes {
 public:

@@ -32,7 +32,7 @@ constexpr double no_slip = 1e-7;          ///< less is none [m]
 
 const ContactRun* find(const std::vector<ContactRun>& runs, auto&& condition)
 {
-    const auto at = std::find_if(runs.begin(), runs.end(), condition);
+    const auto at = std::ranges::find_if(runs, condition);
     return at == runs.end() ? nullptr : &*at;
 }
 
@@ -154,6 +154,23 @@ std::string failed_words(const Scene& scene, const std::vector<ContactRun>& runs
     return words;
 }
 
+/// A sentence for each run that needs one, in the order of the runs. One self-excited run (the worst, or else the first) explains the
+/// cause and the remedy; the sentences of the others give how far the dam slid.
+std::vector<std::string> run_sentences(const std::vector<ContactRun>& runs)
+{
+    const auto by_itself = [](const ContactRun& r) { return r.fe.status == Status::self_excited; };
+    const auto first = std::ranges::find_if(runs, by_itself);
+    const ContactRun* in_headline = first == runs.end()         ? nullptr
+                                    : by_itself(worst_of(runs)) ? &worst_of(runs)
+                                                                : &*first;
+    std::vector<std::string> sentences;
+    for (const ContactRun& r : runs)
+        sentences.push_back(by_itself(r) && &r != in_headline
+                                ? fmt::format("Self-excited, too: slid at least {:.4g} mm.", 1e3 * std::abs(r.fe.slip))
+                                : text_of(r.fe.notes));
+    return sentences;
+}
+
 /// What a reader has to know beside the slip: runs that fail otherwise, and those without an answer.
 std::string remarks(const std::vector<ContactRun>& runs)
 {
@@ -178,7 +195,7 @@ std::string remarks(const std::vector<ContactRun>& runs)
 
 Section statics_section(const std::vector<ContactRun>& runs)
 {
-    return {"Static stages", {rows_part(contact_stage_table(runs))}, Fold::open};
+    return {"Static stages", {rows_part(contact_stage_table(runs))}};
 }
 
 std::vector<std::string> after_earthquake(const std::vector<ContactRun>& runs)
@@ -189,9 +206,8 @@ std::vector<std::string> after_earthquake(const std::vector<ContactRun>& runs)
     return list;
 }
 
-} // namespace
-
-std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& scene, const std::vector<ContactRun>& runs)
+/// Slips, friction, opening of the worst run: for the top of the page.
+std::vector<std::pair<std::string, std::string>> key_figures(const Scene& scene, const std::vector<ContactRun>& runs)
 {
     std::vector<std::pair<std::string, std::string>> list;
     if (runs.empty()) return list;
@@ -223,8 +239,6 @@ std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& sce
     return list;
 }
 
-namespace {
-
 /// Without the load combinations.
 Headline slip_headline(const Scene& scene, const std::vector<ContactRun>& runs)
 {
@@ -249,6 +263,25 @@ Headline slip_headline(const Scene& scene, const std::vector<ContactRun>& runs)
     return {sentence, Outcome::unresolved, known ? "undecided within ±" : "undecided: the error is not known"};
 }
 
+/// What the page, and the answer, of contact runs begin from.
+FePageFrame contact_frame(const FeReport::Input& in, const std::vector<ContactRun>& runs)
+{
+    const std::string modes =
+        in.reduced ? fmt::format(" on {} elastic modes of the dam", runs.empty() ? 0 : runs.front().fe.modes) : "";
+    return {.scene = in.scene,
+            .plan = in.plan,
+            .records = in.records,
+            .model = in.model.model(),
+            .water = in.model.water() ? &in.model.water()->water : nullptr,
+            .uplift = in.uplift,
+            .kind = "finite elements with contact" + modes,
+            .method = fmt::format("plane-strain finite elements, {} unknowns, {} contact pairs{}; rigid block for "
+                                  "comparison with events located exactly",
+                                  in.model.model().dofs.count, in.model.structure().pairs(),
+                                  in.reduced ? "; earthquake" + modes + ", static stages by the full model" : ""),
+            .reduced = in.reduced};
+}
+
 } // namespace
 
 Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs,
@@ -257,13 +290,13 @@ Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs,
     return with_failed_checks(slip_headline(scene, runs), failed_words(scene, runs, combinations));
 }
 
-FeReport::FeReport(const Input& input) : in_(input), stresses_(input.model) {}
+FeReport::FeReport(const Input& input) : in_(input), stresses_(stress_view(input.model)) {}
 
 void FeReport::add(const ContactRun& run, const GroundMotion& motion)
 {
     if (motions_.empty() || motions_.back().name != motion.name) motions_.push_back(motion); // once for both polarities
     const std::size_t number = sections_.size() + 1;
-    Section section{"Record " + run.label(), {}, Fold::open};
+    Section section{"Record " + run.label()};
     if (!run.fe.notes.empty()) section.parts.push_back(Paragraph{text_of(run.fe.notes)});
     const bool of_pairs = run.fe.history.by_pair.pairs > 0;
     if (run.fe.history.time.size() < 2 || (!of_pairs && run.fe.modes == 0)) {
@@ -284,26 +317,8 @@ void FeReport::add(const ContactRun& run, const GroundMotion& motion)
     sections_.push_back(std::move(section));
     if (of_pairs && stress_records_ < stress_records) {
         ++stress_records_;
-        stresses_.add(run.label(), run.fe);
+        add_stresses(in_.model, run.label(), run.fe, stresses_);
     }
-}
-
-FePageFrame contact_frame(const FeReport::Input& in, const std::vector<ContactRun>& runs)
-{
-    const std::string modes =
-        in.reduced ? fmt::format(" on {} elastic modes of the dam", runs.empty() ? 0 : runs.front().fe.modes) : "";
-    return {.scene = in.scene,
-            .plan = in.plan,
-            .records = in.records,
-            .model = in.model.model(),
-            .water = in.model.water() ? &in.model.water()->water : nullptr,
-            .uplift = in.uplift,
-            .kind = "finite elements with contact" + modes,
-            .method = fmt::format("plane-strain finite elements, {} unknowns, {} contact pairs{}; rigid block for "
-                                  "comparison with events located exactly",
-                                  in.model.model().dofs.count, in.model.structure().pairs(),
-                                  in.reduced ? "; earthquake" + modes + ", static stages by the full model" : ""),
-            .reduced = in.reduced};
 }
 
 Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::string>& messages,
@@ -312,13 +327,13 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::
     const FePageFrame frame = contact_frame(in_, runs);
     Page page = begin_fe_page(frame);
     page.headline = fe_headline(in_.scene, runs, in_.combinations);
-    page.key_figures = fe_key_figures(in_.scene, runs);
+    page.key_figures = key_figures(in_.scene, runs);
     std::vector<std::string> warnings = messages;
     for (std::string& w : after_earthquake(runs)) warnings.push_back(std::move(w));
     page.warnings.insert(page.warnings.begin(), warnings.begin(), warnings.end());
 
     const std::optional<double>& allowable = in_.scene.criteria.allowable_slip;
-    Section slip{"Slip", {}, Fold::open};
+    Section slip{"Slip"};
     for (Table& table : std::vector{run_answer_table(runs, allowable), contact_slip_table(runs), run_out_table(runs),
                                     crack_table(runs), contact_event_table(runs), contact_lift_table(runs, allowable),
                                     traced_table(in_.traced, in_.scene), bond_table(runs), contact_anchor_table(runs), base_water_table(in_.scene, runs)})
@@ -328,11 +343,11 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::
     if (!slides) page.sections.push_back(statics_section(runs));
     page.sections.push_back(std::move(slip));
     if (slides) page.sections.push_back(statics_section(runs));
-    if (!stresses_.empty()) {
-        MeshView view = stresses_.view();
+    if (!stresses_.states.empty()) {
+        MeshView view = stresses_;
         if (sections_.size() > stress_records_)
             view.note += fmt::format(" The first {} of {} runs.", stress_records_, sections_.size());
-        page.sections.push_back({"Stresses", {std::move(view)}, Fold::open});
+        page.sections.push_back({"Stresses", {std::move(view)}});
     }
     std::vector<Section> appendix = add_worse_polarities(runs, sections_, page);
     std::vector<Table> how{run_solution_table(runs, false), contact_law_table(runs), joint_flow_table(runs),
@@ -393,27 +408,6 @@ void keep_contact_run(const std::filesystem::path& folder, const FeReport::Input
                contact_arrays(in.model.model().mesh, r.fe));
 }
 
-std::vector<std::string> base_notes(const Scene& scene)
-{
-    std::vector<std::string> notes;
-    if (const std::optional<std::string> note = base_note(scene)) notes.push_back(*note);
-    for (std::string& note : note_texts(scene.notes)) notes.push_back(std::move(note));
-    return notes;
-}
-
-std::vector<std::string> run_sentences(const std::vector<ContactRun>& runs)
-{
-    const auto by_itself = [](const ContactRun& r) { return r.fe.status == Status::self_excited; };
-    const auto first = std::find_if(runs.begin(), runs.end(), by_itself);
-    const ContactRun* in_headline = first == runs.end() ? nullptr : by_itself(worst_of(runs)) ? &worst_of(runs) : &*first;
-    std::vector<std::string> sentences;
-    for (const ContactRun& r : runs)
-        sentences.push_back(by_itself(r) && &r != in_headline
-                                ? fmt::format("Self-excited, too: slid at least {:.4g} mm.", 1e3 * std::abs(r.fe.slip))
-                                : text_of(r.fe.notes));
-    return sentences;
-}
-
 /// Of a run that came to rest but moved on after the record.
 std::string walked_sentence(double slip, const fe2d::RunOutFigures& f)
 {
@@ -442,7 +436,9 @@ void add_run_messages(const std::vector<ContactRun>& runs, std::vector<std::stri
 std::vector<std::string> contact_messages(const Scene& scene, const std::vector<ContactRun>& runs,
                                           const std::vector<std::string>& of_rock)
 {
-    std::vector<std::string> messages = base_notes(scene);
+    std::vector<std::string> messages; // the rigid base first, then what is unusual in the scene
+    if (const std::optional<std::string> note = base_note(scene)) messages.push_back(*note);
+    for (std::string& note : note_texts(scene.notes)) messages.push_back(std::move(note));
     for (std::string& note : contact_law_notes(scene)) messages.push_back(std::move(note));
     messages.insert(messages.end(), of_rock.begin(), of_rock.end());
     if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
@@ -490,7 +486,7 @@ void add_points(const Scene& scene, const std::vector<ContactRun>& runs, Answer&
     const SlipError error = slip_error(worst);
     std::string governs = record_of(worst);
     if (const auto& open = worst.fe.history.open_length; !open.empty())
-        governs += fmt::format("; {:.3g} m of the base open at most", *std::max_element(open.begin(), open.end()));
+        governs += fmt::format("; {:.3g} m of the base open at most", *std::ranges::max_element(open));
     if (!worst.fe.stages.empty())
         governs += fmt::format("; without earthquake it needs a friction of {:.3g}, given {:.3g}",
                                worst.fe.stages.back().critical_friction, base_strength(scene).friction);
@@ -576,7 +572,7 @@ Answer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>& 
     answer.set("verdict", word(joined_verdict(headline, runs, allowable)));
     answer.set("worst", worst_json(runs, allowable));
     answer.set("model_spread", spread);
-    end_fe_answer(messages, answer);
+    answer.notes("messages", messages);
     return answer;
 }
 

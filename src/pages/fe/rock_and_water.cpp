@@ -1,6 +1,7 @@
 #include "pages/fe/fe_pages.hpp"
 
 #include "analysis/prepare/reducible.hpp"
+#include "core/word_in.hpp"
 #include "scene/joint_bond.hpp"
 #include "scene/mesh_sizes.hpp"
 #include "scene/rock_mass.hpp"
@@ -12,7 +13,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <numeric>
 #include <ranges>
 
 namespace damslip::pages {
@@ -21,30 +21,17 @@ namespace {
 
 const char* word(RockKind kind)
 {
-    switch (kind) {
-    case RockKind::rigid:
-        return "rigid";
-    case RockKind::massless:
-        return "massless";
-    case RockKind::boxed:
-        return "boxed";
-    case RockKind::radiating:
-        break;
-    }
-    return "radiating";
+    return word_in(kind, {{RockKind::rigid, "rigid"},
+                          {RockKind::massless, "massless"},
+                          {RockKind::boxed, "boxed"},
+                          {RockKind::radiating, "radiating"}});
 }
 
 const char* word(fe2d::RockOrigin origin)
 {
-    switch (origin) {
-    case fe2d::RockOrigin::made:
-        return "made";
-    case fe2d::RockOrigin::kept:
-        return "found in the cache";
-    case fe2d::RockOrigin::not_kept:
-        break;
-    }
-    return "made, the cache could not be written";
+    return word_in(origin, {{fe2d::RockOrigin::made, "made"},
+                            {fe2d::RockOrigin::kept, "found in the cache"},
+                            {fe2d::RockOrigin::not_kept, "made, the cache could not be written"}});
 }
 
 double hertz(double circular)
@@ -81,6 +68,9 @@ nlohmann::ordered_json rock_json(const Scene& scene, const fe2d::EarthquakeRun& 
     return j;
 }
 
+namespace {
+
+/// What is to be known of radiating rock: a gate that was failed, what an inclined base and a curtain leave out.
 std::vector<std::string> radiating_messages(const Scene& scene, const fe2d::EarthquakeRun& model)
 {
     std::vector<std::string> messages;
@@ -112,6 +102,8 @@ std::vector<std::string> radiating_messages(const Scene& scene, const fe2d::Eart
         messages.push_back("the curtain's stiffness is in the statics; waves see rock without it");
     return messages;
 }
+
+} // namespace
 
 ModelNotes::ModelNotes(const Scene& scene, const fe2d::EarthquakeRun& model)
     : scene_(scene), model_(model), lines_(radiating_messages(scene, model))
@@ -196,28 +188,6 @@ auto with_water(const std::vector<ContactRun>& runs)
 {
     return runs | std::views::filter([](const ContactRun& r) { return r.fe.base_water.has_value(); });
 }
-
-const ColumnOf<ContactRun> record_of_run{{"record", "record"}, &ContactRun::record};
-const ColumnOf<ContactRun> polarity_of_run{{"polarity", "polarity"}, &ContactRun::polarity};
-
-/// Rows of the history in which the joint's pressure stands, in MPa.
-struct PressureRows {
-    const fe2d::RunHistory& history;
-    std::size_t pairs;
-
-    double sum(std::size_t row) const
-    {
-        const auto from = history.joint_pressure.begin() + static_cast<std::ptrdiff_t>(row * pairs);
-        return std::accumulate(from, from + static_cast<std::ptrdiff_t>(pairs), 0.0);
-    }
-    std::vector<double> at(std::size_t row) const
-    {
-        std::vector<double> values;
-        for (std::size_t i = 0; i < pairs; ++i)
-            values.push_back(1e-6 * static_cast<double>(history.joint_pressure[row * pairs + i]));
-        return values;
-    }
-};
 
 } // namespace
 
@@ -307,57 +277,6 @@ std::vector<std::string> base_water_notes(const Scene& scene, const std::vector<
                             run.label(), w.reynolds_number));
     }
     return notes;
-}
-
-std::optional<Chart> base_water_chart(const RunView& view)
-{
-    const fe2d::RunResult& fe = view.run.fe;
-    const fe2d::RunHistory& h = fe.history;
-    if (!fe.base_water || h.joint_pressure.empty()) return std::nullopt;
-    const PressureRows rows{h, static_cast<std::size_t>(fe.pair_distance.size())};
-    const std::vector<double> distance(fe.pair_distance.begin(), fe.pair_distance.end());
-    Chart chart;
-    chart.title = view.run.label() + ": water pressure in the joint";
-    chart.x = {"distance from the heel", "m"};
-    chart.y = {"water pressure", "MPa"};
-    chart.together = view.together + "base";
-    const auto add = [&](const std::string& name, std::size_t row, int colour, Weight weight) {
-        chart.curves.push_back({name, distance, rows.at(row), {}, {}, Mark::line, weight, colour});
-    };
-    std::size_t least = 0, most = 0;
-    for (std::size_t row = 1; row < h.time.size(); ++row) {
-        if (rows.sum(row) < rows.sum(least)) least = row;
-        if (rows.sum(row) > rows.sum(most)) most = row;
-    }
-    const auto longest = static_cast<std::size_t>(std::max_element(h.crack_length.begin(), h.crack_length.end()) -
-                                                  h.crack_length.begin());
-    add("before the earthquake", 0, 7, Weight::normal);
-    add(fmt::format("longest crack, {:.3g} m at {:.4g} s", h.crack_length[longest], h.time[longest]), longest, 1,
-        Weight::normal);
-    if (most != longest && most != 0)
-        add(fmt::format("largest uplift, {:.4g} s", h.time[most]), most, 3, Weight::normal);
-    if (least != longest && least != 0)
-        add(fmt::format("least uplift, {:.4g} s", h.time[least]), least, 2, Weight::normal);
-
-    Moving moving;
-    moving.label = "time";
-    moving.unit = "s";
-    const std::size_t every = std::max<std::size_t>(1, h.time.size() / std::max<std::size_t>(20, 150 / view.records));
-    for (std::size_t row = 0; row < h.time.size(); ++row) {
-        if (row % every && row != longest) continue;
-        if (row == longest) moving.start = moving.at.size();
-        moving.at.push_back(h.time[row]);
-        moving.y.push_back(rows.at(row));
-    }
-    moving.curve = chart.curves.size();
-    add("at the slider's time", longest, 0, Weight::strong);
-    const auto [low, high] = std::minmax_element(h.joint_pressure.begin(), h.joint_pressure.end());
-    const double bottom = std::min(0.0, 1e-6 * static_cast<double>(*low)), top = 1e-6 * static_cast<double>(*high);
-    chart.y.low = bottom - 0.04 * (top - bottom);
-    chart.y.high = top + 0.04 * (top - bottom);
-    chart.moving = std::move(moving);
-    chart.note = "Against the atmosphere, mean over the length that belongs to each contact pair.";
-    return chart;
 }
 
 } // namespace damslip::pages

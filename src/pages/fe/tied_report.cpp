@@ -6,10 +6,8 @@
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
 #include "scene/plausible.hpp"
-#include "scene/write.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -30,28 +28,13 @@ std::vector<ColumnOf<fe2d::HistoryRow>> history_columns(bool water)
         {{"crest_accel_x_m_s2", "crest acceleration x", "m/s²", 4}, &Row::crest_accel_x},
         {{"crest_accel_y_m_s2", "crest acceleration y", "m/s²", 4}, &Row::crest_accel_y},
         {{"base_shear_N_m", "base shear", "N/m", 4}, &Row::base_shear},
-        {{"base_normal_N_m", "base normal force", "N/m", 4}, &Row::base_normal},
-        {{"energy_kinetic_J_m", "kinetic energy", "J/m", 4}, [](const Row& r) { return r.energy.kinetic; }},
-        {{"energy_strain_J_m", "strain energy", "J/m", 4}, [](const Row& r) { return r.energy.strain; }},
-        {{"energy_damping_J_m", "damping", "J/m", 4}, [](const Row& r) { return r.energy.damping; }},
-        {{"energy_numerical_J_m", "numerical dissipation", "J/m", 4}, [](const Row& r) { return r.energy.numerical; }},
-        {{"energy_friction_J_m", "friction", "J/m", 4}, [](const Row& r) { return r.energy.friction; }},
-        {{"energy_radiated_J_m", "radiated", "J/m", 4}, [](const Row& r) { return r.energy.radiated; }},
-        {{"energy_external_J_m", "external work", "J/m", 4}, [](const Row& r) { return r.energy.external; }},
-        {{"energy_contact_normal_J_m", "contact normal work", "J/m", 4},
-         [](const Row& r) { return r.energy.contact_normal; }},
-        {{"energy_imbalance_J_m", "energy imbalance", "J/m", 2}, &Row::imbalance}};
+        {{"base_normal_N_m", "base normal force", "N/m", 4}, &Row::base_normal}};
+    for (const auto& [column, value] : energy_columns())
+        all.push_back(
+            {{"energy_" + column.key, column.heading, column.unit}, [value](const Row& r) { return value(r.energy); }});
+    all.push_back({{"energy_imbalance_J_m", "energy imbalance", "J/m", 2}, &Row::imbalance});
     if (water) all.push_back({{"water_force_x_N_m", "hydrodynamic force x", "N/m", 4}, &Row::water_force_x});
     return all;
-}
-
-/// The rows as a table. Energies in J/m, forces in N/m.
-Table history_table(const fe2d::History& history)
-{
-    Table table = table_of("history", history_columns(history.peak_water_force > 0.0), history.rows);
-    if (history.status != fe2d::TiedRunStatus::complete) table.notes.push_back(text_of(history.ending));
-    for (const Note& note : history.notes) table.notes.push_back(text_of(note));
-    return table;
 }
 
 using units::mm;
@@ -65,21 +48,13 @@ struct Line {
 Chart history_chart(const TiedRun& run, const std::string& together, std::size_t records, const char* title,
                     const char* label, const char* unit, const std::vector<Line>& lines)
 {
-    Chart chart;
-    chart.title = run.record + ": " + title;
-    chart.x = {"time", "s"};
-    chart.y = {label, unit};
-    chart.height = 280;
+    Chart chart = time_chart(run.record + ": " + title, {label, unit}, 280);
     chart.together = together;
-    std::vector<double> time;
-    for (const fe2d::HistoryRow& row : run.history.rows) time.push_back(row.time);
     for (const Line& line : lines) {
-        Curve curve{line.name, time, {}, {}, {}, Mark::line, Weight::normal, -1};
-        for (const fe2d::HistoryRow& row : run.history.rows) curve.y.push_back(line.value(row));
-        chart.curves.push_back(std::move(curve));
+        Curve& curve = chart.curves.emplace_back(Curve{line.name});
+        for (const fe2d::HistoryRow& row : run.history.rows) curve.add(row.time, line.value(row));
     }
-    chart.thin_above = std::clamp<std::size_t>(16000 / std::max<std::size_t>(records, 1), 800, 4200);
-    chart.thin_buckets = chart.thin_above / (2 * chart.curves.size());
+    thin_for(chart, records, run_samples, most_run_samples);
     return chart;
 }
 
@@ -91,33 +66,36 @@ std::vector<Chart> history_charts(const TiedRun& run, std::size_t number, std::s
         return history_chart(run, together, records, title, label, unit, lines);
     };
     const Row start = run.history.rows.front();
-    std::vector<Line> ground{{"horizontal, upstream", [](const Row& r) { return r.ground_accel_h; }}};
-    if (std::any_of(run.history.rows.begin(), run.history.rows.end(),
-                    [](const Row& r) { return r.ground_accel_v != 0.0; }))
-        ground.push_back({"vertical, up", [](const Row& r) { return r.ground_accel_v; }});
-    std::vector<Line> forces{{"shear, downstream", [](const Row& r) { return r.base_shear / 1e6; }},
-                             {"normal, without uplift", [](const Row& r) { return r.base_normal / 1e6; }}};
+    const auto since_start = [start](double Row::*value) {
+        return [=](const Row& r) { return (r.*value - start.*value) / mm; };
+    };
+    const auto in_MN = [](double Row::*force) { return [=](const Row& r) { return r.*force / 1e6; }; };
+    const auto energy = [start](double fe2d::Energy::*term) {
+        return [=](const Row& r) { return (r.energy.*term - start.energy.*term) / 1e3; };
+    };
+    using E = fe2d::Energy;
+    std::vector<Line> ground{{"horizontal, upstream", &Row::ground_accel_h}};
+    if (std::ranges::any_of(
+            run.history.rows, [](double a) { return a != 0.0; }, &Row::ground_accel_v))
+        ground.push_back({"vertical, up", &Row::ground_accel_v});
+    std::vector<Line> forces{{"shear, downstream", in_MN(&Row::base_shear)},
+                             {"normal, without uplift", in_MN(&Row::base_normal)}};
     if (run.history.peak_water_force > 0.0)
-        forces.push_back({"water on the dam, dynamic part", [](const Row& r) { return r.water_force_x / 1e6; }});
-    return {
-        chart("ground acceleration", "acceleration", "m/s²", ground),
-        chart("crest motion", "displacement since the start", "mm",
-              {{"downstream", [start](const Row& r) { return (r.crest_x - start.crest_x) / mm; }},
-               {"up", [start](const Row& r) { return (r.crest_y - start.crest_y) / mm; }}}),
-        chart("crest acceleration", "acceleration, absolute", "m/s²",
-              {{"downstream", [](const Row& r) { return r.crest_accel_x; }},
-               {"up", [](const Row& r) { return r.crest_accel_y; }}}),
-        chart("forces on the base", "force", "MN/m", forces),
-        chart(
-            "energy since the start of the shaking", "energy", "kJ/m",
-            {{"external work", [start](const Row& r) { return (r.energy.external - start.energy.external) / 1e3; }},
-             {"kinetic", [start](const Row& r) { return (r.energy.kinetic - start.energy.kinetic) / 1e3; }},
-             {"strain", [start](const Row& r) { return (r.energy.strain - start.energy.strain) / 1e3; }},
-             {"damping, dissipated", [start](const Row& r) { return (r.energy.damping - start.energy.damping) / 1e3; }},
-             {"scheme, dissipated",
-              [start](const Row& r) { return (r.energy.numerical - start.energy.numerical) / 1e3; }},
-             {"radiated", [start](const Row& r) { return (r.energy.radiated - start.energy.radiated) / 1e3; }},
-             {"imbalance", [](const Row& r) { return r.imbalance / 1e3; }}})};
+        forces.push_back({"water on the dam, dynamic part", in_MN(&Row::water_force_x)});
+    return {chart("ground acceleration", "acceleration", "m/s²", ground),
+            chart("crest motion", "displacement since the start", "mm",
+                  {{"downstream", since_start(&Row::crest_x)}, {"up", since_start(&Row::crest_y)}}),
+            chart("crest acceleration", "acceleration, absolute", "m/s²",
+                  {{"downstream", &Row::crest_accel_x}, {"up", &Row::crest_accel_y}}),
+            chart("forces on the base", "force", "MN/m", forces),
+            chart("energy since the start of the shaking", "energy", "kJ/m",
+                  {{"external work", energy(&E::external)},
+                   {"kinetic", energy(&E::kinetic)},
+                   {"strain", energy(&E::strain)},
+                   {"damping, dissipated", energy(&E::damping)},
+                   {"scheme, dissipated", energy(&E::numerical)},
+                   {"radiated", energy(&E::radiated)},
+                   {"imbalance", [](const Row& r) { return r.imbalance / 1e3; }}})};
 }
 
 Headline headline(const std::vector<TiedRun>& runs)
@@ -126,9 +104,7 @@ Headline headline(const std::vector<TiedRun>& runs)
     for (const TiedRun& r : runs)
         if (r.history.status != fe2d::TiedRunStatus::complete)
             return {r.record + ": " + text_of(r.history.ending), Outcome::unresolved, "UNRESOLVED"};
-    const TiedRun& worst = *std::max_element(runs.begin(), runs.end(), [](const TiedRun& a, const TiedRun& b) {
-        return a.history.peak_crest_x < b.history.peak_crest_x;
-    });
+    const TiedRun& worst = *std::ranges::max_element(runs, {}, [](const TiedRun& r) { return r.history.peak_crest_x; });
     return {
         fmt::format(
             "On a base that is bonded to the rock the crest moves {:.4g} mm at most against the ground (record {}), "
@@ -177,7 +153,8 @@ Table run_table(const std::vector<TiedRun>& runs, bool with_seconds)
         {{"method", "method"}, [](const R& r) { return r.history.method; }},
         {{"steps", "steps"}, [](const R& r) { return r.history.steps; }},
         {{"dt_s", "step", "s", 4}, [](const R& r) { return r.history.time_step; }},
-        {ranking({"peak_crest_x_mm", "peak crest x", "mm", 5}), [](const R& r) { return 1e3 * r.history.peak_crest_x; }},
+        {ranking({"peak_crest_x_mm", "peak crest x", "mm", 5}),
+         [](const R& r) { return 1e3 * r.history.peak_crest_x; }},
         {in_brief({"peak_crest_accel_x_m_s2", "peak crest a_x", "m/s²", 5}),
          [](const R& r) { return r.history.peak_crest_accel_x; }},
         {in_brief({"peak_base_shear_kN_m", "peak base shear", "kN/m", 5}),
@@ -185,7 +162,7 @@ Table run_table(const std::vector<TiedRun>& runs, bool with_seconds)
         {{"radiated_share", "radiated", "–", 3}, [](const R& r) { return radiated_share(r.history); }},
         {in_brief({"energy_imbalance", "energy imbalance", "–", 2}),
          [](const R& r) { return r.history.largest_imbalance; }},
-        {{"factorisations", "factorisations"}, [](const R& r) { return count_cell(r.history.factorisations); }}};
+        {{"factorisations", "factorisations"}, [](const R& r) { return r.history.factorisations; }}};
     if (with_seconds) columns.push_back({{"seconds", "time", "s", 3}, &R::seconds});
     return table_of<R>(
         "Earthquake runs, tied base", columns, runs,
@@ -200,23 +177,22 @@ Table run_table(const std::vector<TiedRun>& runs, bool with_seconds)
 FePageFrame tied_frame(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records,
                        const fe2d::Model& model, const fe2d::FluidModel* water)
 {
-    return {scene,
-            plan,
-            records,
-            model,
-            water,
-            {}, // a bonded base takes its uplift with the loads
-            "finite elements, base bonded to the rock",
-            fmt::format("plane-strain finite elements, {} unknowns, base bonded", model.dofs.count),
-            false};
+    return {.scene = scene,
+            .plan = plan,
+            .records = records,
+            .model = model,
+            .water = water,
+            .kind = "finite elements, base bonded to the rock",
+            .method = fmt::format("plane-strain finite elements, {} unknowns, base bonded", model.dofs.count),
+            .slides = false};
 }
 
 void write_tied_history(const std::filesystem::path& folder, const Scene& scene, const std::string& hash,
                            const TiedRun& run)
 {
     write_file(folder / (run_file("history", scene, run.record) + ".csv"),
-               csv(history_table(run.history), {"damslip " + program_version() + " fe --base tied",
-                                                 "scene " + hash, "record " + run.record}));
+               csv(table_of("", history_columns(run.history.peak_water_force > 0.0), run.history.rows),
+                   {"damslip " + program_version() + " fe --base tied", "scene " + hash, "record " + run.record}));
 }
 
 Answer tied_answer(const FePageFrame& frame, const fe2d::StaticSolution& statics, const std::vector<TiedRun>& runs)
@@ -228,7 +204,7 @@ Answer tied_answer(const FePageFrame& frame, const fe2d::StaticSolution& statics
     for (const TiedRun& r : runs) notes[r.record] = r.notes;
     answer.set("notes", notes);
     answer.headline_in_brief(headline(runs));
-    end_fe_answer(note_texts(frame.scene.notes), answer);
+    answer.notes("messages", note_texts(frame.scene.notes));
     for (const TiedRun& r : runs)
         for (const std::string& note : r.notes) answer.note(r.record + ": " + note);
     return answer;
@@ -238,8 +214,8 @@ Page tied_page(const FePageFrame& frame, const fe2d::StaticSolution& statics, co
 {
     Page page = begin_fe_page(frame);
     page.headline = headline(runs);
-    page.sections.push_back({"Runs", {rows_part(run_table(runs, false))}, Fold::open});
-    page.sections.push_back({"Static stages", {rows_part(stage_table(frame.model, statics))}, Fold::open});
+    page.sections.push_back({"Runs", {rows_part(run_table(runs, false))}});
+    page.sections.push_back({"Static stages", {rows_part(stage_table(frame.model, statics))}});
     std::vector<GroundMotion> motions;
     for (const TiedRun& r : runs) {
         motions.push_back(r.motion);

@@ -7,45 +7,19 @@
 #include "pages/report/page.hpp"
 
 #include <limits>
-#include <nlohmann/json_fwd.hpp>
 
 namespace damslip::pages {
 
 /// All that a fragility's tables and page show.
 struct FragilityView {
-    const Scene& scene;
+    const FragilityStudy& study;
     const FragilityPlan& plan;
     const FragilityRuns& runs;
-    const FragilityEstimate& estimate;
-    std::string method;                           ///< "rigid-v", "fe"
-    double unit = 1.0;                            ///< SI value of one unit of the levels
-    std::string unit_text = "m/s2";               ///< "g"
-    const FragilityCauses* causes = nullptr;      ///< nullptr: none
-    const ConditionedPlan* conditioned = nullptr; ///< nullptr: friction is drawn
-    std::vector<std::pair<LimitInput, std::vector<NeededYield>>> needed_yields = {}; ///< of limits of slip
-    std::vector<std::string> notes = {};
-    /// Half-width over runs of this run's own first draws at the level with P nearest to 0.1, one estimator a limit; empty: not known.
-    std::vector<IntervalPoint> own_cost = {};
-};
+    const FragilityAnswer& answer;
 
-/// Of a study that was answered; all of it outlives the view.
-inline FragilityView view_of(const FragilityStudy& study, const FragilityPlan& plan, const FragilityRuns& runs,
-                             const FragilityAnswer& answer)
-{
-    const IntensityInput& intensity = study.input.intensity;
-    return {study.scene,
-            plan,
-            runs,
-            answer.estimate,
-            study.method.id,
-            intensity.level_unit,
-            intensity.level_unit_text,
-            answer.causes ? &*answer.causes : nullptr,
-            answer.conditioned,
-            answer.needed_yields,
-            answer.notes,
-            answer.own_cost};
-}
+    double unit() const { return study.input.intensity.level_unit; } ///< SI value of one unit of the levels
+    const std::string& unit_text() const { return study.input.intensity.level_unit_text; } ///< "g"
+};
 
 Answer fragility_answer(const FragilityView& view);
 /// Curves with stripes and bands, rate by intensity, what P comes from, the tables.
@@ -55,29 +29,10 @@ std::string fragility_nrml(const FragilityView& view);
 /// P over the water level as the USACE library fragility-curves reads it; empty: the level is not drawn from a list of values.
 std::string fragility_usace(const FragilityView& view);
 
-/// What the price of an interval is shown with.
-struct IntervalCostView {
-    const Scene& scene;
-    const IntervalCost& cost;
-    const std::vector<RecordPair>& records;
-    std::string measure;            ///< "PGA"
-    double unit = 1.0;              ///< SI value of one unit of the levels
-    std::string unit_text = "m/s2"; ///< "g"
-};
+/// What an interval of P costs.
+Answer interval_cost_answer(const FragilityStudy& study, const IntervalCost& cost);
+Page interval_cost_page(const FragilityStudy& study, const IntervalCost& cost);
 
-/// One row an estimator and number of runs.
-Table interval_cost_table(const IntervalCostView& view);
-Answer interval_cost_answer(const IntervalCostView& view);
-Page interval_cost_page(const IntervalCostView& view);
-
-enum class CostAxis { seconds, runs };
-
-/// Half-width of the 95 % interval over processor time or over runs, both logarithmic, a line an estimator.
-Chart interval_cost_chart(const std::vector<IntervalPoint>& points, CostAxis axis, const std::string& title,
-                          const std::string& note);
-
-/// Of the levels, its key and heading with their unit.
-Column intensity_column(const FragilityView& view);
 /// One row a run: draw, record, level, answer. The same whatever the number of threads, parts and stops.
 /// @param first, end  the runs first ... end - 1 alone
 Table sample_table(const FragilityView& view, std::size_t first = 0,

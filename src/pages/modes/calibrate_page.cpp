@@ -1,7 +1,6 @@
-#include "pages/modes/calibrate_page.hpp"
+#include "pages/modes/modes_pages.hpp"
 
 #include "core/file.hpp"
-#include "core/text.hpp"
 #include "core/units.hpp"
 #include "core/version.hpp"
 #include "pages/report/table_text.hpp"
@@ -11,6 +10,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace damslip::pages {
 
@@ -40,13 +40,12 @@ Table frequency_table(const Calibration& c)
 Table modulus_table(const Calibration& c)
 {
     using Row = FittedModulus;
-    return table_of<Row>(
-        "Moduli",
-        {{{"key", "key"}, &Row::key},
-         {{"scene_GPa", "scene", "GPa", 4}, [](const Row& r) { return r.before / units::GPa; }},
-         {{"calibrated_GPa", "calibrated", "GPa", 4}, [](const Row& r) { return r.after / units::GPa; }},
-         {{"beta", "beta of ln E", "–", 3}, &Row::beta}},
-        c.moduli);
+    return table_of<Row>("Moduli",
+                         {{{"key", "key"}, &Row::key},
+                          {{"scene_GPa", "scene", "GPa", 4}, &Row::before, units::GPa},
+                          {{"calibrated_GPa", "calibrated", "GPa", 4}, &Row::after, units::GPa},
+                          {{"beta", "beta of ln E", "–", 3}, &Row::beta}},
+                         c.moduli);
 }
 
 std::string headline(const Calibration& c)
@@ -76,8 +75,7 @@ std::vector<std::string> notes_of(const Scene& given, const Calibration& c)
     return notes;
 }
 
-} // namespace
-
+/// Laws of the moduli as tables of a scene file that `fragility` reads.
 std::string fragility_laws(const Calibration& c)
 {
     std::string text;
@@ -94,6 +92,8 @@ std::string fragility_laws(const Calibration& c)
     return text;
 }
 
+} // namespace
+
 Answer calibration_answer(const Scene& given, const Calibration& c)
 {
     Answer all(json_header("calibrate", given));
@@ -105,18 +105,12 @@ Answer calibration_answer(const Scene& given, const Calibration& c)
         all.set("damping",
                 {{"measured", c.damping->measured}, {"ratio", c.damping->ratio}, {"waves", c.damping->waves}});
     all.set("misfit", c.misfit);
-    all.set("laws", fragility_laws(c));
-    all += "For a fragility:\n\n" + fragility_laws(c) + "\n";
-    std::string line;
-    for (const char letter : fragility_laws(c))
-        if (letter != '\n') {
-            line += letter;
-        } else {
-            all.point("", line);
-            line.clear();
-        }
-    all.set("notes", notes_of(given, c));
-    for (const std::string& note : notes_of(given, c)) all.note(note);
+    const std::string laws = fragility_laws(c);
+    all.set("laws", laws);
+    all += "For a fragility:\n\n" + laws + "\n";
+    std::istringstream lines(laws);
+    for (std::string line; std::getline(lines, line);) all.point("", line);
+    all.notes("notes", notes_of(given, c));
     return all;
 }
 

@@ -1,4 +1,4 @@
-#include "pages/modes/modes_page.hpp"
+#include "pages/modes/modes_pages.hpp"
 
 #include "core/file.hpp"
 #include "core/version.hpp"
@@ -67,9 +67,7 @@ Table natural_mode_table(const fe2d::NaturalModes& m)
 Table coupled_mode_table(const fe2d::CoupledModes& m, const std::vector<Mode>& leading, Mode count)
 {
     const std::vector<double> sum_x = sums_of(m.effective_share, 0);
-    const auto chosen = [&](Mode i) {
-        return std::find(leading.begin(), leading.end(), i) != leading.end() ? Cell("yes") : Cell();
-    };
+    const auto chosen = [&](Mode i) { return std::ranges::find(leading, i) != leading.end() ? Cell("yes") : Cell(); };
     std::vector<ModeColumn> columns = mode_columns(m, sum_x);
     const ModeColumn of{in_brief({"of", "of"}), [&](Mode i) { return m.of_water(i) ? "reservoir" : "dam"; }},
         energy{{"water_energy_percent", "energy in water", "%", 3}, [&](Mode i) { return 100 * m.water_share[i]; }};
@@ -149,15 +147,6 @@ std::vector<std::string> modes_notes(const Scene& given, const ModesResult& m)
     return notes;
 }
 
-void write_shapes(const std::filesystem::path& folder, const fe2d::Model& model, const fe2d::NaturalModes& modes)
-{
-    for (Eigen::Index i = 0; i < modes.frequency.size(); ++i)
-        fe2d::write_vtu(folder / fmt::format("mode_{:02d}.vtu", i + 1), model.mesh,
-                        {{"shape", node_vectors(model.dofs, modes.shape.col(i))}}, {});
-}
-
-} // namespace
-
 Table frequency_table(const ModesResult& m)
 {
     return m.coupled ? coupled_mode_table(*m.coupled, m.leading, m.count.value_or(m.coupled->frequency.size()))
@@ -188,9 +177,8 @@ Table damping_table(const ModesResult& m)
         {{in_brief({"method", "method"}), &Row::method},
          {in_brief({"mass_coefficient_1_s", "a_M", "1/s", 5}), [](const Row& r) { return r.constants.mass; }},
          {in_brief({"stiffness_coefficient_s", "b_K", "s", 5}), [](const Row& r) { return r.constants.stiffness; }},
-         {{"first_frequency_Hz", "f_i", "Hz", 5}, [](const Row& r) { return r.first_frequency / two_pi; }},
-         {{"second_frequency_Hz", "f_j", "Hz", 5},
-          [](const Row& r) { return optional_cell(r.second_frequency, two_pi); }},
+         {{"first_frequency_Hz", "f_i", "Hz", 5}, &Row::first_frequency, two_pi},
+         {{"second_frequency_Hz", "f_j", "Hz", 5}, &Row::second_frequency, two_pi},
          {in_brief({"remark", "remark"}), &Row::remark}},
         rows);
 }
@@ -214,6 +202,8 @@ Table transfer_table(const ModesResult& m)
                     {"crest: absolute acceleration of its upstream end in x; both positive downstream."});
 }
 
+} // namespace
+
 Answer modes_answer(const Scene& given, const ModesResult& m)
 {
     Answer all(json_header("modes", given));
@@ -226,14 +216,15 @@ Answer modes_answer(const Scene& given, const ModesResult& m)
     all.headline_in_brief({frequency.size() > 0 ? fmt::format("The first mode has {:.4g} Hz, a period of {:.4g} s (tied base).",
                                                               frequency[0], 1.0 / frequency[0])
                                                 : "No mode was found."});
-    all.set("notes", modes_notes(given, m));
-    for (const std::string& note : modes_notes(given, m)) all.note(note);
+    all.notes("notes", modes_notes(given, m));
     return all;
 }
 
 void write_modes(const std::filesystem::path& folder, const Scene& given, const ModesResult& m)
 {
-    if (!m.water) write_shapes(folder, m.model, m.modes);
+    for (Mode i = 0; !m.water && i < m.modes.frequency.size(); ++i)
+        fe2d::write_vtu(folder / fmt::format("mode_{:02d}.vtu", i + 1), m.model.mesh,
+                        {{"shape", node_vectors(m.model.dofs, m.modes.shape.col(i))}}, {});
     if (m.transfer.empty()) return;
     const std::vector<std::string> comments{"damslip " + program_version() + " modes --frf",
                                             "scene " + scene_hash(given)};

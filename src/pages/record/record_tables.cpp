@@ -20,21 +20,21 @@ Table record_info_table(const std::vector<Record>& records, Checksums checksums)
     for (const Record& r : records) rows.push_back({r, records::measure(r)});
     std::vector<ColumnOf<Row>> columns{
         {in_brief({"name", "name"}), [](const Row& r) { return r.record.name; }},
-         {{"format", "format"}, [](const Row& r) { return r.record.source.format; }},
-         {{"unit", "unit"}, [](const Row& r) { return r.record.source.unit; }},
-         {in_brief({"component", "component"}), [](const Row& r) { return r.record.source.component; }},
-         {in_brief({"samples", "samples", "–", 4}), [](const Row& r) { return count_cell(r.record.acceleration.size()); }},
-         {in_brief({"dt_s", "dt", "s", 4}), [](const Row& r) { return r.record.dt; }},
-         {in_brief({"duration_s", "duration", "s", 4}), [](const Row& r) { return r.m.duration; }},
-         {ranking({"pga_m_s2", "PGA", "m/s²", 4}), [](const Row& r) { return r.m.pga; }},
-         {{"pga_g", "PGA", "g", 3}, [](const Row& r) { return r.m.pga / units::standard_gravity; }},
-         {in_brief({"pgv_m_s", "PGV", "m/s", 3}), [](const Row& r) { return r.m.pgv; }},
-         {{"pgd_m", "PGD", "m", 3}, [](const Row& r) { return r.m.pgd; }},
-         {in_brief({"arias_intensity_m_s", "Arias", "m/s", 3}), [](const Row& r) { return r.m.arias_intensity; }},
-         {{"cav_m_s", "CAV", "m/s", 3}, [](const Row& r) { return r.m.cumulative_velocity; }},
-         {{"duration_5_75_s", "D5-75", "s", 3}, [](const Row& r) { return r.m.duration_5_75; }},
-         {in_brief({"duration_5_95_s", "D5-95", "s", 3}), [](const Row& r) { return r.m.duration_5_95; }},
-         {in_brief({"mean_period_s", "Tm", "s", 3}), [](const Row& r) { return optional_cell(r.m.mean_period); }}};
+        {{"format", "format"}, [](const Row& r) { return r.record.source.format; }},
+        {{"unit", "unit"}, [](const Row& r) { return r.record.source.unit; }},
+        {in_brief({"component", "component"}), [](const Row& r) { return r.record.source.component; }},
+        {in_brief({"samples", "samples", "–", 4}), [](const Row& r) { return r.record.acceleration.size(); }},
+        {in_brief({"dt_s", "dt", "s", 4}), [](const Row& r) { return r.record.dt; }},
+        {in_brief({"duration_s", "duration", "s", 4}), [](const Row& r) { return r.m.duration; }},
+        {ranking({"pga_m_s2", "PGA", "m/s²", 4}), [](const Row& r) { return r.m.pga; }},
+        {{"pga_g", "PGA", "g", 3}, [](const Row& r) { return r.m.pga / units::standard_gravity; }},
+        {in_brief({"pgv_m_s", "PGV", "m/s", 3}), [](const Row& r) { return r.m.pgv; }},
+        {{"pgd_m", "PGD", "m", 3}, [](const Row& r) { return r.m.pgd; }},
+        {in_brief({"arias_intensity_m_s", "Arias", "m/s", 3}), [](const Row& r) { return r.m.arias_intensity; }},
+        {{"cav_m_s", "CAV", "m/s", 3}, [](const Row& r) { return r.m.cumulative_velocity; }},
+        {{"duration_5_75_s", "D5-75", "s", 3}, [](const Row& r) { return r.m.duration_5_75; }},
+        {in_brief({"duration_5_95_s", "D5-95", "s", 3}), [](const Row& r) { return r.m.duration_5_95; }},
+        {in_brief({"mean_period_s", "Tm", "s", 3}), [](const Row& r) { return r.m.mean_period; }}};
     if (checksums == Checksums::shown)
         columns.push_back({{"sha256", "sha256"}, [](const Row& r) { return r.record.source.sha256; }});
     Table table = table_of("Accelerograms", columns, rows);
@@ -67,43 +67,41 @@ struct SuiteMeasured {
     double factor = 1.0, misfit = 0.0;
 };
 
-std::vector<ColumnOf<SuiteMeasured>> suite_measure_columns()
+/// @param scaled  with factor and misfit
+std::vector<ColumnOf<SuiteMeasured>> suite_columns(bool scaled)
 {
     using M = SuiteMeasured;
-    return {{ranking({"pga_m_s2", "PGA", "m/s²", 4}), [](const M& m) { return m.factor * m.row.measures.pga; }},
-            {in_brief({"pgv_m_s", "PGV", "m/s", 3}), [](const M& m) { return m.factor * m.row.measures.pgv; }},
-            {in_brief({"arias_intensity_m_s", "Arias", "m/s", 3}),
-             [](const M& m) { return m.factor * m.factor * m.row.measures.arias_intensity; }},
-            {{"cav_m_s", "CAV", "m/s", 3}, [](const M& m) { return m.factor * m.row.measures.cumulative_velocity; }},
-            {in_brief({"duration_5_95_s", "D5-95", "s", 3}), [](const M& m) { return m.row.measures.duration_5_95; }},
-            {in_brief({"mean_period_s", "Tm", "s", 3}), [](const M& m) { return optional_cell(m.row.measures.mean_period); }}};
+    std::vector<ColumnOf<M>> columns{
+        {in_brief({"name", "record"}), [](const M& m) { return m.row.name; }},
+        {in_brief({"event", "event"}), [](const M& m) { return m.row.event; }},
+        {ranking({"pga_m_s2", "PGA", "m/s²", 4}), [](const M& m) { return m.factor * m.row.measures.pga; }},
+        {in_brief({"pgv_m_s", "PGV", "m/s", 3}), [](const M& m) { return m.factor * m.row.measures.pgv; }},
+        {in_brief({"arias_intensity_m_s", "Arias", "m/s", 3}),
+         [](const M& m) { return m.factor * m.factor * m.row.measures.arias_intensity; }},
+        {{"cav_m_s", "CAV", "m/s", 3}, [](const M& m) { return m.factor * m.row.measures.cumulative_velocity; }},
+        {in_brief({"duration_5_95_s", "D5-95", "s", 3}), [](const M& m) { return m.row.measures.duration_5_95; }},
+        {in_brief({"mean_period_s", "Tm", "s", 3}), [](const M& m) { return m.row.measures.mean_period; }}};
+    if (scaled)
+        columns.insert(columns.begin() + 2, {{in_brief({"factor", "factor", "–", 4}), &M::factor},
+                                             {in_brief({"misfit", "misfit", "–", 3}), &M::misfit}});
+    return columns;
 }
 
 } // namespace
 
 Table suite_index_table(const std::vector<SuiteRow>& rows)
 {
-    using M = SuiteMeasured;
-    std::vector<M> items;
+    std::vector<SuiteMeasured> items;
     for (const SuiteRow& row : rows) items.push_back({row});
-    std::vector<ColumnOf<M>> columns = {{in_brief({"name", "record"}), [](const M& m) { return m.row.name; }},
-                                        {in_brief({"event", "event"}), [](const M& m) { return m.row.event; }}};
-    for (ColumnOf<M>& column : suite_measure_columns()) columns.push_back(std::move(column));
-    return table_of("Records", columns, items, {"Horizontal components as they are in their files."});
+    return table_of("Records", suite_columns(false), items, {"Horizontal components as they are in their files."});
 }
 
 Table suite_selection_table(const std::vector<SuiteRow>& rows, const records::SuiteSelection& selection)
 {
-    using M = SuiteMeasured;
-    std::vector<M> items;
+    std::vector<SuiteMeasured> items;
     for (const records::ChosenRecord& c : selection.chosen) items.push_back({rows[c.record], c.factor, c.misfit});
-    std::vector<ColumnOf<M>> columns = {{in_brief({"name", "record"}), [](const M& m) { return m.row.name; }},
-                                        {in_brief({"event", "event"}), [](const M& m) { return m.row.event; }},
-                                        {in_brief({"factor", "factor", "–", 4}), [](const M& m) { return m.factor; }},
-                                        {in_brief({"misfit", "misfit", "–", 3}), [](const M& m) { return m.misfit; }}};
-    for (ColumnOf<M>& column : suite_measure_columns()) columns.push_back(std::move(column));
     Table table = table_of(
-        "Selected", columns, items,
+        "Selected", suite_columns(true), items,
         {fmt::format("misfit: root mean square of ln(factor Sa / target); of the geometric mean {:.3f}, of the records "
                      "{:.3f}. {}",
                      selection.mean_misfit, selection.single_misfit,
@@ -137,14 +135,15 @@ Table suite_spectrum_table(std::span<const double> periods, std::span<const doub
         rows.push_back(
             {periods[k], target[k], std::exp(sum / static_cast<double>(selection.chosen.size())), low, high});
     }
-    return table_of<Row>("Spectra, 5 %",
-                         {{in_brief({"period_s", "T", "s", 3}), [](const Row& r) { return r.period; }},
-                          {in_brief({"target_m_s2", "target", "m/s²", 4}), [](const Row& r) { return r.target; }},
-                          {in_brief({"mean_m_s2", "geometric mean", "m/s²", 4}), [](const Row& r) { return r.mean; }},
-                          {in_brief({"mean_over_target", "mean/target", "–", 3}), [](const Row& r) { return r.mean / r.target; }},
-                          {{"smallest_m_s2", "smallest", "m/s²", 4}, [](const Row& r) { return r.low; }},
-                          {{"largest_m_s2", "largest", "m/s²", 4}, [](const Row& r) { return r.high; }}},
-                         rows);
+    return table_of<Row>(
+        "Spectra, 5 %",
+        {{in_brief({"period_s", "T", "s", 3}), &Row::period},
+         {in_brief({"target_m_s2", "target", "m/s²", 4}), &Row::target},
+         {in_brief({"mean_m_s2", "geometric mean", "m/s²", 4}), &Row::mean},
+         {in_brief({"mean_over_target", "mean/target", "–", 3}), [](const Row& r) { return r.mean / r.target; }},
+         {{"smallest_m_s2", "smallest", "m/s²", 4}, &Row::low},
+         {{"largest_m_s2", "largest", "m/s²", 4}, &Row::high}},
+        rows);
 }
 
 } // namespace damslip::pages

@@ -2,7 +2,6 @@
 
 #include "analysis/suite/record_suite.hpp"
 #include "core/csv.hpp"
-#include "records/measure/measures.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "records/record.hpp"
 

@@ -23,10 +23,8 @@ Table part_of(const Table& table)
     Table part{table.title, {}, std::vector<std::vector<Cell>>(table.rows.size()), {}};
     for (std::size_t j = 0; j < table.columns.size(); ++j) {
         const Column& column = table.columns[j];
-        if (column.brief == Brief::no || std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
-                return std::holds_alternative<std::monostate>(row[j]);
-            }))
-            continue;
+        const auto empty = [&](const auto& row) { return std::holds_alternative<std::monostate>(row[j]); };
+        if (column.brief == Brief::no || std::ranges::all_of(table.rows, empty)) continue;
         part.columns.push_back(column);
         if (!column.brief_heading.empty()) part.columns.back().heading = column.brief_heading;
         for (std::size_t i = 0; i < table.rows.size(); ++i) part.rows[i].push_back(table.rows[i][j]);
@@ -44,7 +42,7 @@ double rounded(double value)
 /// Slips, and all lengths of a table that has millimetres, in millimetres; four digits at most.
 void for_a_glance(Table& table)
 {
-    const bool millimetres = std::any_of(table.columns.begin(), table.columns.end(), [](const Column& c) {
+    const bool millimetres = std::ranges::any_of(table.columns, [](const Column& c) {
         return c.unit == "mm" || (c.unit == "m" && c.key.find("slip") != std::string::npos);
     });
     for (std::size_t j = 0; j < table.columns.size(); ++j) {
@@ -84,10 +82,9 @@ void fit(Table& table)
         for (std::size_t j = 0; j < table.columns.size(); ++j) {
             const std::size_t w = wanted(j);
             sum += w + 2;
-            const bool text = std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
-                return std::holds_alternative<std::string>(row[j]);
-            });
-            if (text && w > most && text_width(table.columns[j].heading) < w) most = w, widest = j;
+            const auto text = [&](const auto& row) { return std::holds_alternative<std::string>(row[j]); };
+            if (std::ranges::any_of(table.rows, text) && w > most && text_width(table.columns[j].heading) < w)
+                most = w, widest = j;
         }
         if (sum <= brief_columns + 2) return;
         if (widest == table.columns.size()) {
@@ -108,18 +105,17 @@ Table with_rows(const Table& table, std::size_t count)
     if (table.rows.size() <= count) return table;
     std::vector<std::size_t> order(table.rows.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto ranks = std::find_if(table.columns.begin(), table.columns.end(),
-                                    [](const Column& column) { return column.brief == Brief::ranks; });
+    const auto ranks = std::ranges::find(table.columns, Brief::ranks, &Column::brief);
     if (ranks != table.columns.end()) {
         const auto at = static_cast<std::size_t>(ranks - table.columns.begin());
         const auto size = [&](std::size_t i) { // a word in place of a number, "at least 310", is looked at first
             if (const double* value = std::get_if<double>(&table.rows[i][at])) return std::abs(*value);
             return std::holds_alternative<std::string>(table.rows[i][at]) ? HUGE_VAL : -1.0;
         };
-        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return size(a) > size(b); });
+        std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return size(a) > size(b); });
     }
     order.resize(count);
-    std::sort(order.begin(), order.end());
+    std::ranges::sort(order);
     Table part{table.title, table.columns, {}, {}};
     for (const std::size_t i : order) part.rows.push_back(table.rows[i]);
     return part;
@@ -145,7 +141,7 @@ std::string lines_of(const std::string& sentence, std::size_t most, const std::s
 
 std::size_t count_lines(const std::string& text)
 {
-    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+    return static_cast<std::size_t>(std::ranges::count(text, '\n'));
 }
 
 /// Without what stands in parentheses.
@@ -169,10 +165,9 @@ std::string clauses(const std::string& sentence, std::size_t characters)
 {
     std::size_t end = 0;
     for (std::size_t at = 0; at < sentence.size(); ++at) {
-        const bool ends = at + 1 == sentence.size() ||
-                          (std::string_view(",;.").find(sentence[at]) != std::string_view::npos && sentence[at + 1] == ' ');
-        if (!ends) continue;
-        const std::size_t here = std::string_view(",;.").find(sentence[at]) != std::string_view::npos ? at : at + 1;
+        const bool stop = std::string_view(",;.").find(sentence[at]) != std::string_view::npos;
+        if (at + 1 != sentence.size() && !(stop && sentence[at + 1] == ' ')) continue;
+        const std::size_t here = stop ? at : at + 1;
         if (text_width(sentence.substr(0, here)) > characters) break;
         end = here;
     }
@@ -255,10 +250,16 @@ void Answer::note(const std::string& note)
     note_in_brief(note);
 }
 
+void Answer::notes(const std::string& id, const std::vector<std::string>& notes)
+{
+    set(id, notes);
+    for (const std::string& each : notes) note(each);
+}
+
 void Answer::note_in_brief(const std::string& note)
 {
     const auto same = [&](const std::string& other) { return without_stop(other) == without_stop(note); };
-    if (std::none_of(notes_.begin(), notes_.end(), same)) notes_.push_back(note);
+    if (std::ranges::none_of(notes_, same)) notes_.push_back(note);
 }
 
 void Answer::next(const std::string& command)
@@ -308,34 +309,23 @@ std::string Answer::brief(const std::string& files) const
 {
     constexpr std::size_t most = 1000, few_rows = 6, least_rows = 3;
     Room room{brief_lines, most, 3, tables_.size(), 2};
+    // What can wait longest goes first, down to so many.
+    const std::vector<std::pair<std::size_t Room::*, std::size_t>> steps{
+        {&Room::note_lines, 1},    {&Room::notes, 4},  {&Room::rows, few_rows}, {&Room::tables, 2}, {&Room::notes, 2},
+        {&Room::rows, least_rows}, {&Room::tables, 1}, {&Room::point_lines, 1}, {&Room::notes, 0}};
     for (;;) {
         std::string out = in_room(room, files);
         const std::size_t lines = count_lines(out);
         if (lines <= brief_lines) return out;
         if (room.notes > notes_.size()) room.notes = notes_.size();
-        if (room.note_lines > 1) // what can wait longest goes first
-            --room.note_lines;
-        else if (room.notes > 4)
-            --room.notes;
-        else if (room.rows > few_rows)
-            --room.rows;
-        else if (room.tables > 2)
-            --room.tables;
-        else if (room.notes > 2)
-            --room.notes;
-        else if (room.rows > least_rows)
-            --room.rows;
-        else if (room.tables > 1)
-            --room.tables, room.rows = brief_lines;
-        else if (room.point_lines > 1)
-            --room.point_lines;
-        else if (room.notes > 0)
-            --room.notes;
-        else { // a headline that is longer than any
+        const auto step = std::ranges::find_if(steps, [&](const auto& s) { return room.*s.first > s.second; });
+        if (step == steps.end()) { // a headline that is longer than any
             std::size_t at = 0;
             for (std::size_t k = 0; k + 1 < brief_lines; ++k) at = out.find('\n', at) + 1;
             return out.substr(0, at) + "more: --full prints the rest\n";
         }
+        --(room.*step->first);
+        if (step->first == &Room::tables && step->second == 1) room.rows = brief_lines;
     }
 }
 

@@ -49,6 +49,8 @@ public:
     void point(const std::string& name, const std::string& sentence);
     /// "note: ..." in both; once in brief, however often it is added.
     void note(const std::string& note);
+    /// All of them, and their list as a value of the JSON object.
+    void notes(const std::string& id, const std::vector<std::string>& notes);
     /// A note that is on standard error in the full output.
     void note_in_brief(const std::string& note);
     /// The command that answers the next question; in brief alone.

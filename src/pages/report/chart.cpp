@@ -1,5 +1,6 @@
 #include "pages/report/chart.hpp"
 
+#include "core/word_in.hpp"
 #include "pages/report/json.hpp"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <ranges>
 
 namespace damslip::pages {
 
@@ -66,80 +68,50 @@ std::optional<double> even_step(const std::vector<double>& x)
     return step;
 }
 
-const char* word(Scale scale)
-{
-    switch (scale) {
-    case Scale::linear:
-        return "linear";
-    case Scale::log:
-        return "log";
-    case Scale::asinh:
-        return "asinh";
-    }
-    return "";
-}
-
 const char* word(Mark mark)
 {
-    switch (mark) {
-    case Mark::line:
-        return "line";
-    case Mark::dashed:
-        return "dashed";
-    case Mark::points:
-        return "points";
-    case Mark::line_and_points:
-        return "line_and_points";
-    }
-    return "";
+    return word_in(mark, {{Mark::line, "line"},
+                          {Mark::dashed, "dashed"},
+                          {Mark::points, "points"},
+                          {Mark::line_and_points, "line_and_points"}});
 }
 
 const char* word(Weight weight)
 {
-    switch (weight) {
-    case Weight::normal:
-        return "normal";
-    case Weight::strong:
-        return "strong";
-    case Weight::faint:
-        return "faint";
-    }
-    return "";
+    return word_in(weight, {{Weight::normal, "normal"}, {Weight::strong, "strong"}, {Weight::faint, "faint"}});
 }
 
 std::string axis_json(const Axis& axis)
 {
-    std::string out = "{\"label\":" + json_text(axis.label) + ",\"unit\":" + json_text(axis.unit) + ",\"scale\":\"" +
-                      word(axis.scale) + "\",\"linear_below\":" + json_number(axis.linear_below) +
-                      ",\"low\":" + json_number(axis.low) + ",\"high\":" + json_number(axis.high) + ",\"categories\":[";
-    for (std::size_t i = 0; i < axis.categories.size(); ++i) out += (i ? "," : "") + json_text(axis.categories[i]);
-    return out + "]}";
+    const char* const scale =
+        word_in(axis.scale, {{Scale::linear, "linear"}, {Scale::log, "log"}, {Scale::asinh, "asinh"}});
+    return "{\"label\":" + json_text(axis.label) + ",\"unit\":" + json_text(axis.unit) + ",\"scale\":\"" + scale +
+           "\",\"linear_below\":" + json_number(axis.linear_below) + ",\"low\":" + json_number(axis.low) +
+           ",\"high\":" + json_number(axis.high) + ",\"categories\":" + json_list(axis.categories, json_text) + "}";
 }
 
 std::string lines_json(const std::vector<Line>& lines)
 {
-    std::string out = "[";
-    for (const Line& line : lines)
-        if (std::isfinite(line.at))
-            out += (out.size() > 1 ? ",{\"at\":" : "{\"at\":") + json_number(line.at) +
-                   ",\"label\":" + json_text(line.label) + "}";
-    return out + "]";
+    return json_list(lines | std::views::filter([](const Line& line) { return std::isfinite(line.at); }),
+                     [](const Line& line) {
+                         return "{\"at\":" + json_number(line.at) + ",\"label\":" + json_text(line.label) + "}";
+                     });
 }
 
 /// The curve that a slider moves, null where there is none.
-std::string moving_json(const std::optional<Moving>& moving, const ChartData& data)
+std::string moving_json(const std::optional<Moving>& moving, [[maybe_unused]] std::size_t samples)
 {
     if (!moving || moving->at.empty()) return "null";
     assert(moving->y.size() == moving->at.size());
-    std::string out = "{\"curve\":" + std::to_string(moving->curve) + ",\"label\":" + json_text(moving->label) +
-                      ",\"unit\":" + json_text(moving->unit) + ",\"start\":" + std::to_string(moving->start) +
-                      ",\"at\":" + json_numbers(moving->at) + ",\"y\":[";
-    for (std::size_t k = 0; k < moving->y.size(); ++k) {
-        assert(moving->y[k].size() == data.x.size());
-        out += (k ? "," : "") + json_numbers(moving->y[k], 4);
-    }
-    (void)data;
-    return out + "]}";
+    return "{\"curve\":" + std::to_string(moving->curve) + ",\"label\":" + json_text(moving->label) +
+           ",\"unit\":" + json_text(moving->unit) + ",\"start\":" + std::to_string(moving->start) +
+           ",\"at\":" + json_numbers(moving->at) + ",\"y\":" +
+           json_list(moving->y,
+                     [&](const Values& y) {
+                         assert(y.size() == samples);
+                         return json_numbers(y, 4);
+                     }) +
+           "}";
 }
 
 std::string abscissae_json(const std::vector<double>& x)
@@ -168,15 +140,13 @@ Values drawable(Values values, Scale scale)
 ChartData common_abscissae(const Chart& chart)
 {
     ChartData data;
-    const auto longest = std::max_element(chart.curves.begin(), chart.curves.end(),
-                                          [](const Curve& a, const Curve& b) { return a.x.size() < b.x.size(); });
+    const auto longest = std::ranges::max_element(chart.curves, {}, [](const Curve& c) { return c.x.size(); });
     if (longest == chart.curves.end()) return data;
-    data.joined = !std::all_of(chart.curves.begin(), chart.curves.end(),
-                               [&](const Curve& c) { return is_beginning(c.x, longest->x); });
+    data.joined = !std::ranges::all_of(chart.curves, [&](const Curve& c) { return is_beginning(c.x, longest->x); });
     data.x = data.joined ? united(chart.curves) : longest->x;
     data.samples = data.x.size();
     for (const Curve& c : chart.curves) {
-        assert(c.x.size() == c.y.size() && std::is_sorted(c.x.begin(), c.x.end()));
+        assert(c.x.size() == c.y.size() && std::ranges::is_sorted(c.x));
         assert(c.low.size() == c.high.size() && (c.low.empty() || c.low.size() == c.y.size()));
         data.columns.push_back(placed(data.x, c.x, c.y));
         if (c.low.empty()) continue;
@@ -193,7 +163,7 @@ ChartData thinned(ChartData data, std::size_t above, std::size_t buckets)
     std::vector<std::size_t> kept{0, n - 1};
     for (std::size_t b = 0; b < buckets; ++b)
         for (const Values& y : data.columns) keep_extremes(y, b * n / buckets, (b + 1) * n / buckets, kept);
-    std::sort(kept.begin(), kept.end());
+    std::ranges::sort(kept);
     kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
     const auto pick = [&kept](const std::vector<double>& values) {
         std::vector<double> out;
@@ -214,22 +184,21 @@ std::string chart_json(const Chart& chart, const ChartData& data)
                       ",\"joined\":" + (data.joined ? "true" : "false") +
                       ",\"samples\":" + std::to_string(data.samples) + ",\"x\":" + abscissae_json(data.x) +
                       ",\"horizontal\":" + lines_json(chart.horizontal) +
-                      ",\"vertical\":" + lines_json(chart.vertical) + ",\"curves\":[";
-    std::size_t column = 0;
+                      ",\"vertical\":" + lines_json(chart.vertical) + ",\"curves\":";
+    auto column = data.columns.begin();
     int next_colour = 0;
-    for (std::size_t i = 0; i < chart.curves.size(); ++i) {
-        const Curve& c = chart.curves[i];
+    const auto next_values = [&] { return json_numbers(drawable(*column++, chart.y.scale)); };
+    out += json_list(chart.curves, [&](const Curve& c) {
         const int colour = c.colour >= 0 ? c.colour : next_colour++;
-        out += std::string(i ? "," : "") + "{\"name\":" + json_text(c.name) + ",\"mark\":\"" + word(c.mark) +
-               "\",\"weight\":\"" + word(c.weight) + "\",\"colour\":" + std::to_string(colour) +
-               ",\"y\":" + json_numbers(drawable(data.columns[column++], chart.y.scale));
+        std::string curve = "{\"name\":" + json_text(c.name) + ",\"mark\":\"" + word(c.mark) + "\",\"weight\":\"" +
+                            word(c.weight) + "\",\"colour\":" + std::to_string(colour) + ",\"y\":" + next_values();
         if (!c.low.empty()) {
-            out += ",\"low\":" + json_numbers(drawable(data.columns[column++], chart.y.scale));
-            out += ",\"high\":" + json_numbers(drawable(data.columns[column++], chart.y.scale));
+            curve += ",\"low\":" + next_values();
+            curve += ",\"high\":" + next_values();
         }
-        out += "}";
-    }
-    return out + "],\"moving\":" + moving_json(chart.moving, data) + "}";
+        return curve + "}";
+    });
+    return out + ",\"moving\":" + moving_json(chart.moving, data.x.size()) + "}";
 }
 
 } // namespace damslip::pages

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// A chart as data: curves with names and units, drawn by the page's script (page.js).
@@ -14,7 +15,7 @@ enum class Scale {
 };
 
 struct Axis {
-    std::string label;                         ///< "slip"
+    std::string label = {};                    ///< "slip"
     std::string unit = {};                     ///< "mm"; empty or "–": none
     Scale scale = Scale::linear;               ///< of values; categories are evenly spaced
     double linear_below = 0.1;                 ///< asinh only, in the axis' unit, > 0
@@ -31,11 +32,23 @@ enum class Weight {
 
 struct Curve {
     std::string name;
-    std::vector<double> x, y;                ///< of equal length, x ascending; NaN: no value there
+    std::vector<double> x = {}, y = {};      ///< of equal length, x ascending; NaN: no value there
     std::vector<double> low = {}, high = {}; ///< band (lines) or bars (points) around y; both empty or as long as y
     Mark mark = Mark::line;
     Weight weight = Weight::normal;
     int colour = -1; ///< 0 ... 7 of the page's palette; -1: the next one
+
+    void add(double at, double value)
+    {
+        x.push_back(at);
+        y.push_back(value);
+    }
+    void add(double at, double value, double least, double largest)
+    {
+        add(at, value);
+        low.push_back(least);
+        high.push_back(largest);
+    }
 };
 
 /// A straight line across the chart with a label: an allowable slip, the scene's friction.
@@ -48,27 +61,32 @@ struct Line {
 struct Moving {
     std::size_t curve = 0;   ///< of Chart::curves; its own values are those of at[start]
     std::string label, unit; ///< of `at`: "time", "s"
-    std::vector<double> at;  ///< ascending
-    std::vector<std::vector<double>>
-        y;                 ///< values of the curve, one list for each `at`, over the curve's own x, which all
-                           ///< curves of the chart share
+    std::vector<double> at = {}; ///< ascending
+    /// Values of the curve, one list for each `at`, over the curve's own x, which all curves of the chart share.
+    std::vector<std::vector<double>> y = {};
     std::size_t start = 0; ///< drawn first
 };
 
 struct Chart {
-    std::string title;
-    Axis x, y;
-    std::vector<Curve> curves;
-    std::vector<Line> horizontal, vertical;
-    std::optional<Moving> moving; ///< fix the ends of y with it, so that the instants compare
-    std::string together;         ///< charts with the same word share cursor, zoom in x and slider; empty: alone
-    std::string note;             ///< sentence below the chart
-    int height = 330;             ///< of the drawing, legend excluded [px], >= 240
+    std::string title = {};
+    Axis x = {}, y = {};
+    std::vector<Curve> curves = {};
+    std::vector<Line> horizontal = {}, vertical = {};
+    std::optional<Moving> moving = {}; ///< fix the ends of y with it, so that the instants compare
+    std::string together = {};         ///< charts with the same word share cursor, zoom in x and slider; empty: alone
+    std::string note = {};             ///< sentence below the chart
+    int height = 330;                  ///< of the drawing, legend excluded [px], >= 240
     /// Above `thin_above` abscissae only the lowest and highest value of each curve in each of `thin_buckets` equal
     /// parts are kept: what a screen can show. The chart then says so.
     std::size_t thin_above = 20000;
     std::size_t thin_buckets = 2000; ///< > 0
 };
+
+/// A chart without curves over time.
+inline Chart time_chart(std::string title, Axis y, int height = Chart{}.height)
+{
+    return {.title = std::move(title), .x = {"time", "s"}, .y = std::move(y), .height = height};
+}
 
 /// One column of values over the common abscissae; NaN where the curve has none.
 using Values = std::vector<double>;

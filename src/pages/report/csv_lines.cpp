@@ -1,7 +1,5 @@
-#include "pages/report/csv_lines.hpp"
-
 #include "core/text.hpp"
-#include "core/csv.hpp"
+#include "pages/report/table_text.hpp"
 
 #include <bit>
 #include <cmath>

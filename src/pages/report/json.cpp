@@ -5,35 +5,22 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace damslip::pages {
 
 std::string html_text(std::string_view text)
 {
+    static const std::map<char, const char*> entities{
+        {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
     std::string out;
     out.reserve(text.size());
-    for (const char c : text) {
-        switch (c) {
-        case '&':
-            out += "&amp;";
-            break;
-        case '<':
-            out += "&lt;";
-            break;
-        case '>':
-            out += "&gt;";
-            break;
-        case '"':
-            out += "&quot;";
-            break;
-        case '\'':
-            out += "&#39;";
-            break;
-        default:
-            if (static_cast<unsigned char>(c) >= 0x20 || c == '\t' || c == '\n') out += c;
-        }
-    }
+    for (const char c : text)
+        if (const auto entity = entities.find(c); entity != entities.end())
+            out += entity->second;
+        else if (static_cast<unsigned char>(c) >= 0x20 || c == '\t' || c == '\n')
+            out += c;
     return out;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "core/csv.hpp"
-#include "core/text.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -29,5 +28,14 @@ void add_json_number(std::string& out, double value, int digits = 6);
 
 std::string json_number(const std::optional<double>& value, int digits = 6); ///< nothing: null
 std::string json_numbers(const std::vector<double>& values, int digits = 6); ///< as an array
+
+/// An array of the JSON texts that `one` makes of the items.
+template <class Items, class One>
+std::string json_list(Items&& items, One&& one)
+{
+    std::string out = "[";
+    for (const auto& item : items) out += (out.size() > 1 ? "," : "") + one(item);
+    return out + "]";
+}
 
 } // namespace damslip::pages

@@ -1,6 +1,6 @@
 #include "pages/report/page.hpp"
 
-#include "pages/report/chart.hpp"
+#include "core/word_in.hpp"
 #include "pages/report/json.hpp"
 #include "pages/report/table_text.hpp"
 
@@ -100,28 +100,16 @@ std::string pairs_html(const std::vector<std::pair<std::string, std::string>>& p
     return out + "</dl>\n";
 }
 
-const char* outcome_class(Outcome outcome)
-{
-    switch (outcome) {
-    case Outcome::pass:
-        return "pass";
-    case Outcome::fail:
-        return "fail";
-    case Outcome::unresolved:
-        return "unresolved";
-    case Outcome::none:
-        return "open";
-    }
-    return "";
-}
-
 std::string headline_html(const Headline& headline)
 {
     if (headline.sentence.empty()) return "";
     const std::string verdict =
         headline.verdict.empty() ? "" : "<strong class=\"verdict\">" + html_text(headline.verdict) + "</strong> ";
-    return std::string("<p class=\"headline ") + outcome_class(headline.outcome) + "\">" + verdict +
-           html_text(headline.sentence) + "</p>\n";
+    const std::string css = word_in(headline.outcome, {{Outcome::pass, "pass"},
+                                                       {Outcome::fail, "fail"},
+                                                       {Outcome::unresolved, "unresolved"},
+                                                       {Outcome::none, "open"}});
+    return "<p class=\"headline " + css + "\">" + verdict + html_text(headline.sentence) + "</p>\n";
 }
 
 std::string warnings_html(const std::vector<std::string>& warnings)
@@ -184,9 +172,9 @@ std::string head_html(const Page& page)
                       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
                       "'unsafe-inline'; script-src 'unsafe-inline'; img-src data: blob:\">\n<title>";
     out += html_text(page.title) + "</title>\n<style>\n";
-    out += uplot_style();
+    out += assets().uplot_style;
     out += "\n";
-    out += page_style();
+    out += assets().page_style;
     if (!page.footer.empty())
         out += "@media print { @page { @bottom-left { content: " + css_string(page.footer) + "; } } }\n";
     return out + "</style>\n</head>\n";
@@ -231,13 +219,13 @@ std::string page_html(const Page& page)
         out += "<section id=\"provenance\">\n<h2>Provenance</h2>\n" + pairs_html(page.provenance, "provenance") +
                "</section>\n";
     out += "</main>\n<div id=\"drawn\" hidden></div>\n<script>/*! uPlot\n";
-    out += uplot_license();
+    out += assets().uplot_license;
     out += "*/\n";
-    out += uplot_script();
+    out += assets().uplot_script;
     out += "</script>\n<script>\n";
-    out += state_map_script();
-    out += mesh_view_script();
-    out += page_script();
+    out += assets().state_map_script;
+    out += assets().mesh_view_script;
+    out += assets().page_script;
     out += "</script>\n</body>\n</html>\n";
     return out;
 }
@@ -256,39 +244,16 @@ extern const char damslip_page_css[], damslip_page_css_end[];
 
 namespace damslip::pages {
 
-std::string_view uplot_script()
+const Assets& assets()
 {
-    return {damslip_uplot_js, damslip_uplot_js_end};
-}
-
-std::string_view uplot_style()
-{
-    return {damslip_uplot_css, damslip_uplot_css_end};
-}
-
-std::string_view uplot_license()
-{
-    return {damslip_uplot_license, damslip_uplot_license_end};
-}
-
-std::string_view page_script()
-{
-    return {damslip_page_js, damslip_page_js_end};
-}
-
-std::string_view state_map_script()
-{
-    return {damslip_state_map_js, damslip_state_map_js_end};
-}
-
-std::string_view mesh_view_script()
-{
-    return {damslip_mesh_view_js, damslip_mesh_view_js_end};
-}
-
-std::string_view page_style()
-{
-    return {damslip_page_css, damslip_page_css_end};
+    static const Assets all{{damslip_uplot_js, damslip_uplot_js_end},
+                            {damslip_uplot_css, damslip_uplot_css_end},
+                            {damslip_uplot_license, damslip_uplot_license_end},
+                            {damslip_page_js, damslip_page_js_end},
+                            {damslip_state_map_js, damslip_state_map_js_end},
+                            {damslip_mesh_view_js, damslip_mesh_view_js_end},
+                            {damslip_page_css, damslip_page_css_end}};
+    return all;
 }
 
 namespace {

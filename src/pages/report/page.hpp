@@ -4,7 +4,6 @@
 #include "pages/report/chart.hpp"
 #include "pages/report/picture.hpp"
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -56,7 +55,7 @@ using Part = std::variant<Paragraph, TablePart, Chart, StateMap, MeshView, Drawi
 
 struct Section {
     std::string title;
-    std::vector<Part> parts;
+    std::vector<Part> parts = {};
     Fold fold = Fold::open;
 };
 
@@ -104,13 +103,12 @@ std::string page_html(const Page& page);
 std::string table_html(const TablePart& part, const std::string& section = "");
 
 /// Script and style that every page carries, embedded at build (assets.S).
-
-std::string_view uplot_script(); ///< uPlot 1.6.32 (MIT), minified; readable twin and checksums: vendor/uplot
-std::string_view uplot_style();
-std::string_view uplot_license(); ///< goes with every copy of the two
-std::string_view page_script();   ///< page.js
-std::string_view state_map_script();
-std::string_view mesh_view_script();
-std::string_view page_style(); ///< page.css
+struct Assets {
+    std::string_view uplot_script,
+        uplot_style;                ///< uPlot 1.6.32 (MIT), minified; readable twin and checksums: vendor/uplot
+    std::string_view uplot_license; ///< goes with every copy of the two
+    std::string_view page_script, state_map_script, mesh_view_script, page_style; ///< page.js, ..., page.css
+};
+const Assets& assets();
 
 } // namespace damslip::pages

@@ -1,5 +1,6 @@
 #include "pages/report/picture.hpp"
 
+#include "core/word_in.hpp"
 #include "pages/report/json.hpp"
 #include "pages/report/page.hpp"
 
@@ -7,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
+#include <ranges>
 #include <stdexcept>
 #include <string_view>
 
@@ -36,20 +38,13 @@ std::string whole_numbers_json(const std::vector<double>& values)
     for (const double v : values)
         if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
     const double unit = largest > 0.0 ? largest / parts : 1.0;
-    std::string out = "{\"unit\":" + json_number(unit, 9) + ",\"n\":[";
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (i) out += ',';
-        out += std::isfinite(values[i]) ? std::to_string(std::lround(values[i] / unit)) : "null";
-    }
-    return out + "]}";
+    const auto whole = [=](double v) { return std::isfinite(v) ? std::to_string(std::lround(v / unit)) : "null"; };
+    return "{\"unit\":" + json_number(unit, 9) + ",\"n\":" + json_list(values, whole) + "}";
 }
 
 std::string elements_json(const std::vector<std::array<int, 4>>& elements)
 {
-    std::string out = "[";
-    for (const auto& nodes : elements)
-        for (const int node : nodes) out += (out.size() > 1 ? "," : "") + std::to_string(node);
-    return out + "]";
+    return json_list(elements | std::views::join, [](int node) { return std::to_string(node); });
 }
 
 std::string nodes_json(const std::vector<Point>& nodes, double Point::*coordinate)
@@ -62,12 +57,10 @@ std::string nodes_json(const std::vector<Point>& nodes, double Point::*coordinat
 
 std::string state_json(const MeshView::State& state)
 {
-    std::string out = "{\"name\":" + json_text(state.name) + ",\"time\":" + json_number(state.time) +
-                      ",\"shift\":" + json_numbers({state.shift_x, state.shift_y}) +
-                      ",\"ux\":" + whole_numbers_json(state.ux) + ",\"uy\":" + whole_numbers_json(state.uy) +
-                      ",\"values\":[";
-    for (std::size_t i = 0; i < state.values.size(); ++i) out += (i ? "," : "") + whole_numbers_json(state.values[i]);
-    return out + "]}";
+    return "{\"name\":" + json_text(state.name) + ",\"time\":" + json_number(state.time) +
+           ",\"shift\":" + json_numbers({state.shift_x, state.shift_y}) + ",\"ux\":" + whole_numbers_json(state.ux) +
+           ",\"uy\":" + whole_numbers_json(state.uy) + ",\"values\":" + json_list(state.values, whole_numbers_json) +
+           "}";
 }
 
 } // namespace
@@ -75,49 +68,30 @@ std::string state_json(const MeshView::State& state)
 std::string state_map_json(const StateMap& map)
 {
     assert(map.states.size() == map.time.size());
-    std::string out = "{\"title\":" + json_text(map.title) + ",\"place\":" + json_text(map.place) +
-                      ",\"time\":" + json_numbers(map.time) + ",\"distance\":" + json_numbers(map.distance) +
-                      ",\"kinds\":[";
-    for (std::size_t i = 0; i < map.kinds.size(); ++i)
-        out += std::string(i ? "," : "") + "{\"letter\":" + json_text(std::string(1, map.kinds[i].letter)) +
-               ",\"name\":" + json_text(map.kinds[i].name) + ",\"colour\":" + std::to_string(map.kinds[i].colour) + "}";
-    out += "],\"states\":[";
-    for (std::size_t i = 0; i < map.states.size(); ++i) {
-        assert(map.states[i].size() == map.distance.size());
-        out += (i ? "," : "") + json_text(run_lengths(map.states[i]));
-    }
-    return out + "]}";
+    const auto kind_json = [](const StateMap::Kind& kind) {
+        return "{\"letter\":" + json_text(std::string(1, kind.letter)) + ",\"name\":" + json_text(kind.name) +
+               ",\"colour\":" + std::to_string(kind.colour) + "}";
+    };
+    const auto states_json = [&](const std::string& states) {
+        assert(states.size() == map.distance.size());
+        return json_text(run_lengths(states));
+    };
+    return "{\"title\":" + json_text(map.title) + ",\"place\":" + json_text(map.place) +
+           ",\"time\":" + json_numbers(map.time) + ",\"distance\":" + json_numbers(map.distance) +
+           ",\"kinds\":" + json_list(map.kinds, kind_json) + ",\"states\":" + json_list(map.states, states_json) + "}";
 }
 
 std::string mesh_view_json(const MeshView& view)
 {
-    std::string out = "{\"title\":" + json_text(view.title) + ",\"x\":" + nodes_json(view.nodes, &Point::x) +
-                      ",\"y\":" + nodes_json(view.nodes, &Point::y) + ",\"elements\":" + elements_json(view.elements) +
-                      ",\"front\":" + std::to_string(view.front_nodes) + ",\"fields\":[";
-    for (std::size_t i = 0; i < view.fields.size(); ++i)
-        out += std::string(i ? "," : "") + "{\"name\":" + json_text(view.fields[i].name) +
-               ",\"unit\":" + json_text(view.fields[i].unit) + (view.fields[i].least ? ",\"least\":true}" : "}");
-    out += "],\"states\":[";
-    for (std::size_t i = 0; i < view.states.size(); ++i) out += (i ? "," : "") + state_json(view.states[i]);
-    return out + "]}";
+    const auto field_json = [](const MeshView::Field& field) {
+        return "{\"name\":" + json_text(field.name) + ",\"unit\":" + json_text(field.unit) +
+               (field.least ? ",\"least\":true}" : "}");
+    };
+    return "{\"title\":" + json_text(view.title) + ",\"x\":" + nodes_json(view.nodes, &Point::x) +
+           ",\"y\":" + nodes_json(view.nodes, &Point::y) + ",\"elements\":" + elements_json(view.elements) +
+           ",\"front\":" + std::to_string(view.front_nodes) + ",\"fields\":" + json_list(view.fields, field_json) +
+           ",\"states\":" + json_list(view.states, state_json) + "}";
 }
-
-namespace {
-
-const char* anchor(Align align)
-{
-    switch (align) {
-    case Align::start:
-        return "start";
-    case Align::middle:
-        return "middle";
-    case Align::end:
-        return "end";
-    }
-    return "";
-}
-
-} // namespace
 
 Sketch::Sketch(Point low, Point high, double width) : low_(low), high_(high), scale_(width / (high.x - low.x))
 {
@@ -126,14 +100,17 @@ Sketch::Sketch(Point low, Point high, double width) : low_(low), high_(high), sc
 
 void Sketch::polygon(const Polyline& points, const std::string& css)
 {
-    body_ += "<polygon class=\"" + css + "\" points=\"";
-    for (const Point& p : points) body_ += fmt::format("{:.1f},{:.1f} ", pixel(p).x, pixel(p).y);
-    body_ += "\"/>\n";
+    add_points("polygon", points, css);
 }
 
 void Sketch::line(const Polyline& points, const std::string& css)
 {
-    body_ += "<polyline class=\"" + css + "\" points=\"";
+    add_points("polyline", points, css);
+}
+
+void Sketch::add_points(const std::string& element, const Polyline& points, const std::string& css)
+{
+    body_ += "<" + element + " class=\"" + css + "\" points=\"";
     for (const Point& p : points) body_ += fmt::format("{:.1f},{:.1f} ", pixel(p).x, pixel(p).y);
     body_ += "\"/>\n";
 }
@@ -156,7 +133,8 @@ void Sketch::circle(Point centre, double radius_px, const std::string& css)
 void Sketch::text_at(Pixel at, const std::string& words, Align align, const std::string& css)
 {
     body_ += fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", css, at.x, at.y,
-                         anchor(align), html_text(words));
+                         word_in(align, {{Align::start, "start"}, {Align::middle, "middle"}, {Align::end, "end"}}),
+                         html_text(words));
 }
 
 void Sketch::text(Point at, const std::string& words, Align align, double right, double down, const std::string& css)
@@ -194,8 +172,7 @@ void Sketch::dimension(Point a, Point b, double offset_px, const std::string& wo
     arrow_head(pixel(from), pixel(to), 7.0, "dimension");
     arrow_head(pixel(to), pixel(from), 7.0, "dimension");
     const Point middle{(from.x + to.x) / 2, (from.y + to.y) / 2};
-    const bool level = std::abs(b.x - a.x) > std::abs(b.y - a.y);
-    if (level)
+    if (std::abs(b.x - a.x) > std::abs(b.y - a.y)) // level
         text(middle, words, Align::middle, 0, -4);
     else
         text(middle, words, Align::start, 6, 4);
@@ -239,7 +216,7 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
 
 std::string standalone_svg(const std::string& svg)
 {
-    const std::string_view style = page_style();
+    const std::string_view style = assets().page_style;
     std::string colours = part_of(style, ":root {", "}") + "}\n";
     std::string shapes = part_of(style, "/* drawings */", "@media");
     replace_all(colours, ":root", "svg");

@@ -90,6 +90,7 @@ private:
         double x, y;
     };
     Pixel pixel(Point p) const { return {(p.x - low_.x) * scale_, (high_.y - p.y) * scale_}; }
+    void add_points(const std::string& element, const Polyline& points, const std::string& css);
     void text_at(Pixel at, const std::string& words, Align align, const std::string& css);
     void arrow_head(Pixel from, Pixel to, double size, const std::string& css);
 

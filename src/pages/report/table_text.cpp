@@ -1,6 +1,5 @@
 #include "pages/report/table_text.hpp"
 
-#include "pages/report/csv_lines.hpp"
 #include "pages/report/json.hpp"
 
 #include <algorithm>
@@ -11,7 +10,7 @@ namespace damslip::pages {
 
 std::size_t text_width(const std::string& s)
 {
-    return static_cast<std::size_t>(std::count_if(s.begin(), s.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+    return static_cast<std::size_t>(std::ranges::count_if(s, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 namespace {
@@ -137,8 +136,7 @@ bool is_number(const Cell& cell)
 
 Table verdict_after(Table table, std::size_t names)
 {
-    const auto at = std::find_if(table.columns.begin(), table.columns.end(),
-                                 [](const Column& column) { return column.key == "verdict"; });
+    const auto at = std::ranges::find_if(table.columns, [](const Column& column) { return column.key == "verdict"; });
     const auto k = at - table.columns.begin(), first = static_cast<std::ptrdiff_t>(names);
     if (at == table.columns.end() || k <= first) return table;
     std::rotate(table.columns.begin() + first, at, at + 1);
@@ -154,8 +152,7 @@ std::string text(const Table& table)
     for (std::size_t j = 0; j < n; ++j) {
         lines[0][j] = table.columns[j].heading;
         lines[1][j] = table.columns[j].unit;
-        right[j] =
-            std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) { return is_number(row[j]); });
+        right[j] = std::ranges::all_of(table.rows, [&](const auto& row) { return is_number(row[j]); });
     }
     if (std::all_of(lines[1].begin(), lines[1].end(), [](const auto& s) { return s.empty(); })) lines.pop_back();
     const std::size_t header = lines.size();

@@ -40,14 +40,14 @@ const std::vector<ColumnOf<Equilibrium>>& equilibrium_columns()
         {{"kind", "kind"}, [](const E& e) { return word(e.kind); }},
         {{"crack_rule", "crack rule"}, [](const E& e) { return word(e.crack_rule); }},
         {{"follows", "follows"}, [](const E& e) { return e.follows.empty() ? Cell() : Cell(e.follows); }},
-        {{"reservoir_level_m", "reservoir", "m", 4}, [](const E& e) { return optional_cell(e.reservoir_level); }},
-        {{"tailwater_level_m", "tailwater", "m", 4}, [](const E& e) { return optional_cell(e.tailwater_level); }},
+        {{"reservoir_level_m", "reservoir", "m", 4}, &E::reservoir_level},
+        {{"tailwater_level_m", "tailwater", "m", 4}, &E::tailwater_level},
         {{"k_h", "k_h", "–", 3}, &E::k_h},
-        {{"k_h_of_pga", "k_h / PGA", "–", 3}, [](const E& e) { return optional_cell(e.of_pga); }},
+        {{"k_h_of_pga", "k_h / PGA", "–", 3}, &E::of_pga},
         {{"k_v", "k_v", "–", 3}, &E::k_v},
         {{"normal_force_effective_kN_per_m", "N'", "kN/m", 5},
          [](const E& e) { return e.base.effective_normal / kilo; }},
-        {{"shear_force_kN_per_m", "T", "kN/m", 5}, [](const E& e) { return e.shear / kilo; }},
+        {{"shear_force_kN_per_m", "T", "kN/m", 5}, &E::shear, kilo},
         {{"uplift_kN_per_m", "U", "kN/m", 5}, [](const E& e) { return e.base.uplift.force / kilo; }},
         {{"sliding_factor", "FS sliding", "–", 4}, &E::sliding_factor},
         {{"sliding_factor_friction_only", "FS sliding, friction only", "–", 4}, &E::friction_factor},
@@ -58,15 +58,15 @@ const std::vector<ColumnOf<Equilibrium>>& equilibrium_columns()
         {{"eccentricity_m", "eccentricity", "m", 4}, &E::eccentricity},
         {{"resultant_zone", "zone"},
          [](const E& e) { return e.zone == ResultantZone::base ? "within base" : word(e.zone); }},
-        {{"heel_stress_kPa", "heel stress", "kPa", 4}, [](const E& e) { return e.heel_stress / kPa; }},
-        {{"toe_stress_kPa", "toe stress", "kPa", 4}, [](const E& e) { return e.toe_stress / kPa; }},
+        {{"heel_stress_kPa", "heel stress", "kPa", 4}, &E::heel_stress, kPa},
+        {{"toe_stress_kPa", "toe stress", "kPa", 4}, &E::toe_stress, kPa},
         {{"joint", "joint"}, joint},
         {{"crack_m", "crack", "m", 4}, [](const E& e) { return e.base.crack.length; }},
         {{"compressed_length_m", "compressed length", "m", 4}, [](const E& e) { return e.base.compressed_length; }},
         {{"cohesive_length_m", "bonded length", "m", 4}, &E::cohesive_length},
         {{"critical_friction", "critical μ", "–", 4}, &E::critical_friction},
         {{"yield_acceleration_m_s2", "a_y", "m/s²", 5}, &E::yield_acceleration},
-        {{"yield_coefficient_g", "a_y", "g", 4}, [](const E& e) { return e.yield_acceleration / standard_gravity; }},
+        {{"yield_coefficient_g", "a_y", "g", 4}, &E::yield_acceleration, standard_gravity},
         {{"yield_acceleration_upstream_m_s2", "a_y upstream", "m/s²", 5}, &E::yield_acceleration_upstream},
         {{"tipping_acceleration_m_s2", "tipping", "m/s²", 4}, &E::tipping_acceleration}};
     return all;
@@ -100,14 +100,12 @@ Table load_table(const Equilibrium& e)
 Table equilibrium_table(const std::vector<Equilibrium>& all)
 {
     std::vector<ColumnOf<Equilibrium>> columns = equilibrium_columns();
-    if (std::any_of(all.begin(), all.end(), [](const Equilibrium& e) { return e.anchor_force + e.dowel_force > 0.0; }))
-        columns.insert(columns.end(), {{{"anchor_force_kN_per_m", "N of anchors", "kN/m", 5},
-                                        [](const Equilibrium& e) { return e.anchor_force / kilo; }},
-                                       {{"dowel_force_kN_per_m", "dowels", "kN/m", 5},
-                                        [](const Equilibrium& e) { return e.dowel_force / kilo; }}});
+    if (std::ranges::any_of(all, [](const Equilibrium& e) { return e.anchor_force + e.dowel_force > 0.0; }))
+        columns.insert(columns.end(),
+                       {{{"anchor_force_kN_per_m", "N of anchors", "kN/m", 5}, &Equilibrium::anchor_force, kilo},
+                        {{"dowel_force_kN_per_m", "dowels", "kN/m", 5}, &Equilibrium::dowel_force, kilo}});
     Table table = table_of("Limit equilibrium", columns, all);
-    if (std::any_of(all.begin(), all.end(),
-                    [](const Equilibrium& e) { return e.critical_friction == 0.0 && e.cohesion > 0.0; }))
+    if (std::ranges::any_of(all, [](const Equilibrium& e) { return e.critical_friction == 0.0 && e.cohesion > 0.0; }))
         table.notes.push_back("critical μ 0: cohesion alone suffices.");
     for (const Equilibrium& e : all)
         for (const Note& note : e.notes)
@@ -164,17 +162,16 @@ Table verdict_table(const std::vector<Equilibrium>& all)
     std::vector<Row> rows;
     for (const Equilibrium& e : all)
         for (const Check& check : e.checks) rows.push_back({e, check});
-    return table_of<Row>(
-        "Verdicts",
-        {{{"combination", "combination"}, [](const Row& r) { return r.of.name; }},
-         {{"crack_rule", "crack rule"}, [](const Row& r) { return word(r.of.crack_rule); }},
-         {{"check", "check"}, [](const Row& r) { return r.check.quantity; }},
-         {{"value", "value", "–", 4}, [](const Row& r) { return r.check.value; }},
-         {{"required", "required", "–", 4}, [](const Row& r) { return optional_cell(r.check.required); }},
-         {{"ratio", "ratio", "–", 4}, [](const Row& r) { return ratio(r.check); }},
-         {{"verdict", "verdict"}, [](const Row& r) { return word(r.check.verdict); }},
-         {{"source", "source"}, [](const Row& r) { return r.check.source; }}},
-        rows);
+    return table_of<Row>("Verdicts",
+                         {{{"combination", "combination"}, [](const Row& r) { return r.of.name; }},
+                          {{"crack_rule", "crack rule"}, [](const Row& r) { return word(r.of.crack_rule); }},
+                          {{"check", "check"}, [](const Row& r) { return r.check.quantity; }},
+                          {{"value", "value", "–", 4}, [](const Row& r) { return r.check.value; }},
+                          {{"required", "required", "–", 4}, [](const Row& r) { return r.check.required; }},
+                          {{"ratio", "ratio", "–", 4}, [](const Row& r) { return ratio(r.check); }},
+                          {{"verdict", "verdict"}, [](const Row& r) { return word(r.check.verdict); }},
+                          {{"source", "source"}, [](const Row& r) { return r.check.source; }}},
+                         rows);
 }
 
 Table check_matrix(const std::vector<Equilibrium>& all)
@@ -183,7 +180,7 @@ Table check_matrix(const std::vector<Equilibrium>& all)
     std::vector<E> judged;
     std::vector<std::string> quantities, sources; ///< in the order in which they come
     const auto add_new = [](std::vector<std::string>& list, const std::string& word) {
-        if (std::find(list.begin(), list.end(), word) == list.end()) list.push_back(word);
+        if (std::ranges::find(list, word) == list.end()) list.push_back(word);
     };
     for (const Equilibrium& e : all)
         for (const Check& check : e.checks) {
@@ -196,8 +193,8 @@ Table check_matrix(const std::vector<Equilibrium>& all)
                                      {{"crack_rule", "crack rule"}, [](E e) { return word(e->crack_rule); }}};
     for (const std::string& quantity : quantities)
         columns.push_back({{"check", quantity}, [=](E e) -> Cell {
-                               const auto check = std::find_if(e->checks.begin(), e->checks.end(),
-                                                               [&](const Check& c) { return c.quantity == quantity; });
+                               const auto check = std::ranges::find_if(
+                                   e->checks, [&](const Check& c) { return c.quantity == quantity; });
                                if (check == e->checks.end() || check->verdict == Verdict::no_criterion) return {};
                                const std::string value =
                                    std::isinf(check->value) ? "∞" : fmt::format("{:.4g}", check->value);
@@ -220,7 +217,7 @@ Table uplift_comparison_table(const std::vector<UpliftComparison>& all)
         return u.uplift.force > 0.0 ? Cell(u.uplift.moment_about_heel / u.uplift.force) : Cell();
     };
     return table_of<U>("Uplift models, no crack",
-                       {{{"uplift_model", "model"}, [](const U& u) { return std::string(word(u.model)); }},
+                       {{{"uplift_model", "model"}, [](const U& u) { return word(u.model); }},
                         {{"uplift_kN_per_m", "U", "kN/m", 6}, [](const U& u) { return u.uplift.force / kilo; }},
                         {{"uplift_from_heel_m", "acts from the heel", "m", 4}, from_heel},
                         {{"critical_friction", "critical μ", "–", 4}, &U::critical_friction}},

@@ -107,13 +107,12 @@ Section limits_section(const Scene& scene, Method method)
                                         {{"assumption", "assumption"}, &Limit::assumption},
                                         {{"invalid_when", "invalid when"}, &Limit::invalid_when},
                                         {{"instead", "do instead"}, &Limit::instead}},
-                                       rows))},
-            Fold::open};
+                                       rows))}};
 }
 
 Section equilibrium_section(const std::vector<sliding::Equilibrium>& combinations)
 {
-    Section section{"Limit equilibrium", {}, Fold::open};
+    Section section{"Limit equilibrium"};
     if (Table matrix = check_matrix(combinations); !matrix.rows.empty())
         section.parts.push_back(rows_part(std::move(matrix)));
     else

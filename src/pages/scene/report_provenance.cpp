@@ -1,12 +1,13 @@
 #include "pages/scene/scene_pages.hpp"
 
-#include "core/version.hpp"
 #include "core/parallel.hpp"
 #include "core/statistics.hpp"
+#include "core/status.hpp"
 #include "core/units.hpp"
+#include "core/version.hpp"
+#include "core/word_in.hpp"
 #include "records/measure/measures.hpp"
 #include "records/measure/response_spectrum.hpp"
-#include "scene/section.hpp"
 #include "scene/write.hpp"
 
 #include <algorithm>
@@ -97,6 +98,15 @@ void add_record_provenance(const std::vector<RecordPair>& records,
     }
 }
 
+void end_page(const Scene& scene, const std::vector<RecordPair>& records, Page& page,
+              const std::vector<std::pair<std::string, std::string>>& entries, const std::string& hash)
+{
+    page.sections.push_back({"Scene", {scene_listing(scene)}});
+    page.provenance = scene_provenance(scene, hash);
+    page.provenance.insert(page.provenance.end(), entries.begin(), entries.end());
+    add_record_provenance(records, page.provenance);
+}
+
 std::vector<std::string> record_warnings(const std::vector<RecordPair>& records)
 {
     std::vector<std::string> list;
@@ -116,19 +126,12 @@ namespace {
 
 constexpr double kilonewton = 1e3; // [N]
 
-std::string anchor_state_word(AnchorState state)
+const char* word(AnchorState state)
 {
-    switch (state) {
-    case AnchorState::elastic:
-        return "elastic";
-    case AnchorState::yields:
-        return "yields";
-    case AnchorState::slack:
-        return "slack";
-    case AnchorState::snapped:
-        return "SNAPPED";
-    }
-    return "";
+    return word_in(state, {{AnchorState::elastic, "elastic"},
+                           {AnchorState::yields, "yields"},
+                           {AnchorState::slack, "slack"},
+                           {AnchorState::snapped, "SNAPPED"}});
 }
 
 } // namespace
@@ -178,9 +181,8 @@ Table anchor_run_table(const std::vector<AnchorRow>& rows)
          {{"largest_stretch_mm", "largest stretch", "mm", 4},
           [](const R& r) { return r.anchor.history.largest_stretch / units::mm; }},
          {{"plastic_strain", "plastic strain", "–", 3}, [](const R& r) { return r.anchor.history.plastic_strain; }},
-         {{"snapped_at_s", "snapped at", "s", 5},
-          [](const R& r) { return optional_cell(r.anchor.history.snapped_at); }},
-         {{"state", "state"}, [](const R& r) { return anchor_state_word(r.anchor.history.state); }},
+         {{"snapped_at_s", "snapped at", "s", 5}, [](const R& r) { return r.anchor.history.snapped_at; }},
+         {{"state", "state"}, [](const R& r) { return word(r.anchor.history.state); }},
          {{"stored_J_m", "stored", "J/m", 4}, [](const R& r) { return r.anchor.stored; }},
          {{"plastic_J_m", "plastic work", "J/m", 4}, [](const R& r) { return r.anchor.history.plastic_work; }},
          {{"loss_J_m", "lost in rupture", "J/m", 4}, [](const R& r) { return r.anchor.history.loss; }}},
@@ -189,17 +191,33 @@ Table anchor_run_table(const std::vector<AnchorRow>& rows)
     return t;
 }
 
+Table event_run_table(const std::vector<EventRow>& rows, const std::vector<ColumnOf<EventRow>>& more,
+                      const std::string& note)
+{
+    using R = EventRow;
+    std::vector<ColumnOf<R>> columns{{{"record", "sequence"}, &R::record},
+                                     {{"polarity", "polarity"}, &R::polarity},
+                                     {{"event", "event"}, [](const R& r) { return r.event.name; }},
+                                     {{"start_s", "from", "s", 6}, [](const R& r) { return r.event.start; }},
+                                     {{"end_s", "to", "s", 6}, [](const R& r) { return r.event.end; }},
+                                     {{"slip_of_event_mm", "slip of it", "mm", 5},
+                                      [](const R& r) { return reported(r.event.status, r.event.change); },
+                                      units::mm},
+                                     {{"slip_so_far_mm", "slip so far", "mm", 5},
+                                      [](const R& r) { return reported(r.event.status, r.event.slip); },
+                                      units::mm},
+                                     {{"status", "status"}, [](const R& r) { return word(r.event.status); }}};
+    columns.insert(columns.end(), more.begin(), more.end());
+    return table_of("Slip by event", columns, rows, {note});
+}
+
 namespace {
 
 constexpr std::size_t named_records = 6;
 
 Record horizontal_record(const GroundMotion& motion)
 {
-    Record r;
-    r.name = motion.name;
-    r.dt = motion.dt;
-    r.acceleration = motion.accel_h;
-    return r;
+    return {motion.name, motion.dt, motion.accel_h, {}, {}};
 }
 
 double peak(const std::vector<double>& a)
@@ -211,9 +229,9 @@ double peak(const std::vector<double>& a)
 
 } // namespace
 
-void thin_for(Chart& chart, std::size_t records)
+void thin_for(Chart& chart, std::size_t records, std::size_t all, std::size_t most)
 {
-    chart.thin_above = std::clamp<std::size_t>(80000 / std::max<std::size_t>(records, 1), 800, 20000);
+    chart.thin_above = std::clamp<std::size_t>(all / std::max<std::size_t>(records, 1), 800, most);
     chart.thin_buckets = chart.thin_above / (2 * std::max<std::size_t>(chart.curves.size(), 1));
 }
 
@@ -228,28 +246,22 @@ Chart spectra(const std::vector<GroundMotion>& motions, int jobs)
             records::response_spectrum(motions[i].accel_h, motions[i].dt, std::span(&periods[k], 1), 0.05);
         psa[i][k] = spectrum.points.front().pseudo_acceleration;
     });
-    Chart chart;
-    chart.title = "Response spectra, 5 % damping, horizontal";
-    chart.x = {"period", "s", Scale::log};
-    chart.y = {"pseudo-acceleration", "m/s²", Scale::linear, 0.1, 0.0, {}, {}};
+    Chart chart{"Response spectra, 5 % damping, horizontal",
+                {"period", "s", Scale::log},
+                {.label = "pseudo-acceleration", .unit = "m/s²", .low = 0.0}};
     const bool named = motions.size() <= named_records;
     for (std::size_t i = 0; i < motions.size(); ++i)
-        chart.curves.push_back({motions[i].name,
-                                periods,
-                                psa[i],
-                                {},
-                                {},
-                                Mark::line,
-                                named ? Weight::normal : Weight::faint,
-                                named ? static_cast<int>(i) : 7});
+        chart.curves.push_back({.name = motions[i].name,
+                                .x = periods,
+                                .y = psa[i],
+                                .weight = named ? Weight::normal : Weight::faint,
+                                .colour = named ? static_cast<int>(i) : 7});
     if (named) return chart;
-    Curve median{"median, band 16 to 84 %", periods, {}, {}, {}, Mark::line, Weight::strong, 0};
+    Curve median{.name = "median, band 16 to 84 %", .weight = Weight::strong, .colour = 0};
     for (std::size_t k = 0; k < periods.size(); ++k) {
         std::vector<double> values;
         for (const auto& row : psa) values.push_back(row[k]);
-        median.y.push_back(percentile(values, 0.5));
-        median.low.push_back(percentile(values, 0.16));
-        median.high.push_back(percentile(values, 0.84));
+        median.add(periods[k], percentile(values, 0.5), percentile(values, 0.16), percentile(values, 0.84));
     }
     chart.curves.push_back(std::move(median));
     return chart;
@@ -275,8 +287,13 @@ Table record_table(const std::vector<GroundMotion>& motions)
          {{"pgv_m_s", "PGV", "m/s", 4}, [](const Row& r) { return r.m.pgv; }},
          {{"arias_intensity_m_s", "Arias intensity", "m/s", 4}, [](const Row& r) { return r.m.arias_intensity; }},
          {{"duration_5_95_s", "D5-95", "s", 4}, [](const Row& r) { return r.m.duration_5_95; }},
-         {{"mean_period_s", "mean period", "s", 4}, [](const Row& r) { return optional_cell(r.m.mean_period); }}},
+         {{"mean_period_s", "mean period", "s", 4}, [](const Row& r) { return r.m.mean_period; }}},
         rows);
+}
+
+Section records_section(const std::vector<GroundMotion>& motions, int jobs)
+{
+    return {"Records", {record_part(record_table(motions)), spectra(motions, jobs)}};
 }
 
 } // namespace damslip::pages

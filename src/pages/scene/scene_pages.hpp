@@ -2,6 +2,7 @@
 
 #include "analysis/prepare/records.hpp"
 #include "core/csv.hpp"
+#include "core/statistics.hpp"
 #include "pages/report/json.hpp"
 #include "pages/report/page.hpp"
 #include "records/record.hpp"
@@ -78,6 +79,11 @@ std::vector<std::pair<std::string, std::string>> scene_provenance(const Scene& s
 void add_record_provenance(const std::vector<RecordPair>& records,
                            std::vector<std::pair<std::string, std::string>>& list);
 
+/// How most pages end: the scene, then the provenance of scene, answer and records.
+/// @param entries  of the provenance, between those of scene and records @param hash  as of json_header()
+void end_page(const Scene& scene, const std::vector<RecordPair>& records, Page& page,
+              const std::vector<std::pair<std::string, std::string>>& entries = {}, const std::string& hash = {});
+
 /// What reading them found, with their names.
 std::vector<std::string> record_warnings(const std::vector<RecordPair>& records);
 
@@ -94,6 +100,17 @@ struct AnchorRow {
 };
 Table anchor_run_table(const std::vector<AnchorRow>& rows);
 
+/// One event of a sequence in one run.
+struct EventRow {
+    std::string record;
+    int polarity = 1;
+    const EventSlip& event;
+    const EventSlip* rigid = nullptr; ///< the same of the rigid block beside the run; null: not known
+};
+/// @param more  columns
+Table event_run_table(const std::vector<EventRow>& rows, const std::vector<ColumnOf<EventRow>>& more,
+                      const std::string& note);
+
 /// Records as tables and spectra.
 
 /// Sections of records that a report shows unfolded.
@@ -103,9 +120,13 @@ inline constexpr std::size_t open_records = 3;
 /// and all records faintly. @param jobs  threads, 0: all cores
 Chart spectra(const std::vector<GroundMotion>& motions, int jobs);
 
+/// "Records": their table and spectra. @param jobs  threads, 0: all cores
+Section records_section(const std::vector<GroundMotion>& motions, int jobs);
+
 /// Fewer samples in each chart of a history the more records there are: about 80 000 abscissae in all histories of one
 /// kind keep a report of any number of records at a few megabytes. Call it when the chart has its curves.
-void thin_for(Chart& chart, std::size_t records);
+/// @param all  abscissae of all records @param most  of this chart
+void thin_for(Chart& chart, std::size_t records, std::size_t all = 80000, std::size_t most = 20000);
 
 /// Measures of the scaled horizontal components: PGA, PGV, I_A, duration, mean period; vertical PGA.
 Table record_table(const std::vector<GroundMotion>& motions);

@@ -20,7 +20,7 @@ constexpr double drawing_width = 760.0; // [px]
 struct Frame {
     double left, right, bottom, top; ///< of the drawing
     double size;                     ///< the larger of height and base
-    double crest, ground_up, ground_down;
+    double crest;
     double uplift_depth; ///< length of the largest pressure below the base
     Point heel, toe;
 };
@@ -36,8 +36,6 @@ Frame make_frame(const Scene& scene, bool uplift)
     f.heel = heel(scene.section);
     f.toe = toe(scene.section);
     f.crest = crest_level(scene.section);
-    f.ground_up = f.heel.y;
-    f.ground_down = f.toe.y;
     double x_low = 0.0, x_high = 0.0, y_low = 0.0;
     for (const Point& p : scene.section.polygon) {
         x_low = std::min(x_low, p.x);
@@ -86,27 +84,26 @@ Polyline pool(const Polyline& face, double ground, double level, double far)
     return shape;
 }
 
+/// Water on a face out to `far`, with its surface and a mark of the level. @param mark  where that stands
+void draw_water(Sketch& sketch, const Polyline& face, Point foot, double level, double far, double mark)
+{
+    if (level <= foot.y) return;
+    sketch.polygon(pool(face, foot.y, level, far), "water");
+    const Polyline wet = below(face, level);
+    const double shore = wet.empty() ? foot.x : wet.back().x;
+    sketch.line({{std::min(far, shore), level}, {std::max(far, shore), level}}, "water-line");
+    sketch.level_mark({mark, level}, fmt::format("{:.4g} m", level), Align::start);
+}
+
 void draw_pools(Sketch& sketch, const Scene& scene, const Frame& f)
 {
     const Polyline up = upstream_face(scene.section), down = downstream_face(scene.section);
-    if (scene.reservoir && scene.reservoir->level > f.ground_up) {
-        const double level = scene.reservoir->level;
-        sketch.polygon(pool(up, f.ground_up, level, f.left), "water");
-        const Polyline wet = below(up, level);
-        sketch.line({{f.left, level}, {wet.empty() ? 0.0 : wet.back().x, level}}, "water-line");
-        sketch.level_mark({f.left + 0.2 * f.size, level}, fmt::format("{:.4g} m", level), Align::start);
-    }
-    if (scene.silt && scene.silt->level > f.ground_up) {
-        sketch.polygon(pool(up, f.ground_up, scene.silt->level, f.left), "silt");
+    if (scene.reservoir) draw_water(sketch, up, f.heel, scene.reservoir->level, f.left, f.left + 0.2 * f.size);
+    if (scene.silt && scene.silt->level > f.heel.y) {
+        sketch.polygon(pool(up, f.heel.y, scene.silt->level, f.left), "silt");
         sketch.text({f.left, scene.silt->level}, fmt::format("silt {:.4g} m", scene.silt->level), Align::start, 6, -5);
     }
-    if (scene.tailwater && scene.tailwater->level > f.ground_down) {
-        const double level = scene.tailwater->level;
-        sketch.polygon(pool(down, f.ground_down, level, f.right), "water");
-        const Polyline wet = below(down, level);
-        sketch.line({{wet.empty() ? f.toe.x : wet.back().x, level}, {f.right, level}}, "water-line");
-        sketch.level_mark({f.right - 0.25 * f.size, level}, fmt::format("{:.4g} m", level), Align::start);
-    }
+    if (scene.tailwater) draw_water(sketch, down, f.toe, scene.tailwater->level, f.right, f.right - 0.25 * f.size);
 }
 
 void draw_ground(Sketch& sketch, const Frame& f)
@@ -115,9 +112,9 @@ void draw_ground(Sketch& sketch, const Frame& f)
     const auto hatch = [&](double from, double to, double y) {
         for (double x = from; x < to - 0.5 * d; x += 1.6 * d) sketch.line({{x + d, y}, {x, y - d}}, "hatch");
     };
-    hatch(f.left, f.heel.x - 1.5 * d, f.ground_up);
-    hatch(f.toe.x + d, f.right, f.ground_down);
-    sketch.line({{f.left, f.ground_up}, f.heel, f.toe, {f.right, f.ground_down}}, "rock");
+    hatch(f.left, f.heel.x - 1.5 * d, f.heel.y);
+    hatch(f.toe.x + d, f.right, f.toe.y);
+    sketch.line({{f.left, f.heel.y}, f.heel, f.toe, {f.right, f.toe.y}}, "rock");
 }
 
 /// The pressure figure hanging below the base, pressures [kPa] at its corners.
@@ -230,7 +227,7 @@ void draw_anchors(Sketch& sketch, const Scene& scene, const Frame& f)
     }
 }
 
-void draw_forces(Sketch& sketch, const Scene& scene, const Frame& f)
+void draw_forces(Sketch& sketch, const Scene& scene)
 {
     if (scene.ice) {
         const Polyline face = below(upstream_face(scene.section), scene.ice->level);
@@ -246,7 +243,6 @@ void draw_forces(Sketch& sketch, const Scene& scene, const Frame& f)
         sketch.text(tail, force.name + fmt::format(" {:.4g} kN/m", size / 1e3),
                     force.force_x > 0 ? Align::end : Align::start, force.force_x > 0 ? -4 : 4, -4);
     }
-    (void)f;
 }
 
 void draw_dimensions(Sketch& sketch, const Scene& scene, const Frame& f)
@@ -291,8 +287,7 @@ void draw_signs(Sketch& sketch, const Frame& f)
 
 Drawing section_drawing(const Scene& scene, const PressureProfile& uplift, const std::vector<Polyline>& mesh)
 {
-    const bool wet =
-        std::any_of(uplift.points.begin(), uplift.points.end(), [](const auto& p) { return p.pressure > 0; });
+    const bool wet = std::ranges::any_of(uplift.points, [](const auto& p) { return p.pressure > 0; });
     const Frame f = make_frame(scene, wet);
     Sketch sketch({f.left, f.bottom}, {f.right, f.top}, drawing_width);
     draw_pools(sketch, scene, f);
@@ -303,21 +298,20 @@ Drawing section_drawing(const Scene& scene, const PressureProfile& uplift, const
     draw_curtain_and_drains(sketch, scene, f);
     draw_lift_joints(sketch, scene);
     draw_anchors(sketch, scene, f);
-    draw_forces(sketch, scene, f);
+    draw_forces(sketch, scene);
     draw_dimensions(sketch, scene, f);
     sketch.begin_group("signs"); // a narrow screen has no room for them
     draw_signs(sketch, f);
     sketch.end_group();
-    Drawing drawing;
-    drawing.title = "The section, to scale";
-    drawing.svg = sketch.svg(fmt::format("Cross-section, {:.4g} m high, base {:.4g} m, with water levels and uplift "
-                                         "pressure along the base",
-                                         f.crest, base_length(scene.section)));
-    drawing.note = "x downstream, y up; a_h > 0: ground upstream, drives the dam downstream; slip > 0: downstream.";
+    std::string note = "x downstream, y up; a_h > 0: ground upstream, drives the dam downstream; slip > 0: downstream.";
     if (wet)
-        drawing.note += fmt::format(" Below the base: uplift pressure {}.",
-                                    mesh.empty() ? "of the yield acceleration" : "before the earthquake");
-    return drawing;
+        note += fmt::format(" Below the base: uplift pressure {}.",
+                            mesh.empty() ? "of the yield acceleration" : "before the earthquake");
+    return {"The section, to scale",
+            sketch.svg(fmt::format("Cross-section, {:.4g} m high, base {:.4g} m, with water levels and uplift "
+                                   "pressure along the base",
+                                   f.crest, base_length(scene.section))),
+            note};
 }
 
 std::string drawn_section(const Scene& given)

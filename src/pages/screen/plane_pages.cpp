@@ -9,7 +9,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <set>
 
 /// Base, lifts and seams side by side: tables, charts, a drawing of each seam.
 namespace damslip::pages {
@@ -21,11 +20,6 @@ using units::kPa;
 using units::mm;
 using units::standard_gravity;
 constexpr double kN = 1e3; // [N]
-
-std::optional<double> in_degrees(const std::optional<double>& angle)
-{
-    return angle ? std::optional(*angle / degree) : std::nullopt;
-}
 
 Cell factor_cell(const PlaneRow& row, std::size_t state)
 {
@@ -65,22 +59,21 @@ Table plane_table(const Planes& planes, const Scene& scene, PlaneRows which)
             return worst ? value(*worst) : Cell();
         };
     };
-    std::vector<ColumnOf<R>> columns{
-        {in_brief({"plane", "plane"}), [row](R i) { return row(i).name; }},
-        {{"alpha_deg", "α", "°", 4}, [row](R i) { return optional_cell(in_degrees(row(i).angle)); }}};
+    std::vector<ColumnOf<R>> columns{{in_brief({"plane", "plane"}), [row](R i) { return row(i).name; }},
+                                     {{"alpha_deg", "α", "°", 4}, [row](R i) { return row(i).angle; }, degree}};
     const std::size_t last = planes.states.size() - 1;
     if (last > 0)
         columns.push_back({{"factor_" + std::string("static"), "F " + planes.states.front().ground.name, "–", 4},
                            [row](R i) { return factor_cell(row(i), 0); }});
     columns.push_back({in_brief({"factor", "F " + planes.states[last].ground.name, "–", 4}),
                        [row, last](R i) { return factor_cell(row(i), last); }});
-    if (std::any_of(planes.states.begin(), planes.states.end(), [](const PlaneState& s) { return s.required.has_value(); }))
+    if (std::ranges::any_of(planes.states, [](const PlaneState& s) { return s.required.has_value(); }))
         columns.push_back({{"factor_over_required", "F/required", "–", 4},
                            [row, &planes](R i) { return finite_cell(margin(row(i), planes.states)); }});
     const std::vector<ColumnOf<R>> rest{
         {in_brief({"a_y_m_s2", "a_y", "m/s²", 4}), [row](R i) { return finite_cell(row(i).yield); }},
         {{"slip_factor", "s″/(a - a_y)", "–", 4}, [row](R i) { return row(i).slip_factor; }},
-        {ranking({"slip_m", "largest slip", "m", 5}), [row](R i) { return optional_cell(slip_of(row(i))); }},
+        {ranking({"slip_m", "largest slip", "m", 5}), [row](R i) { return slip_of(row(i)); }},
         {{"record", "record"}, with_slip([](const PlaneSlip& s) { return Cell(s.record); })},
         {{"polarity", "polarity"}, with_slip([](const PlaneSlip& s) { return Cell(s.polarity); })},
         {{"status", "status"}, with_slip([](const PlaneSlip& s) { return Cell(word(s.slide.status)); })},
@@ -157,12 +150,11 @@ Table lift_plane_table(const Planes& planes)
     for (const PlaneRow& row : planes.rows)
         if (row.kind == PlaneKind::lift)
             lifts.push_back({planes.lifts[row.place], row, planes.lifts[row.place].states[last]});
-    const bool named = std::any_of(lifts.begin(), lifts.end(), [](const L& l) { // else the elevation is the name
+    const bool named = std::ranges::any_of(lifts, [](const L& l) { // else the elevation is the name
         return !l.row.name.starts_with("lift at ");
     });
-    const bool weakens = std::any_of(lifts.begin(), lifts.end(), [](const L& l) {
-        return std::isfinite(l.state.factor) && l.state.factor_residual != l.state.factor;
-    });
+    const bool weakens = std::ranges::any_of(
+        lifts, [](const L& l) { return std::isfinite(l.state.factor) && l.state.factor_residual != l.state.factor; });
     std::vector<ColumnOf<L>> columns{{{"elevation_m", "elevation", "m", 5}, [](const L& l) { return l.lift.elevation; }}};
     if (named) columns.push_back({{"lift", "lift"}, [](const L& l) { return l.row.name; }});
     const std::vector<ColumnOf<L>> forces{
@@ -182,8 +174,8 @@ Table lift_plane_table(const Planes& planes)
         {{"crack_m", "crack", "m", 4}, [](const L& l) { return l.state.base.crack.length; }},
         {{"a_y_m_s2", "a_y", "m/s²", 4}, [](const L& l) { return finite_cell(l.row.yield); }},
         {{"amplification", "Ā", "–", 4}, [](const L& l) { return l.row.amplification; }},
-        {{"joint_peak_m_s2", "max a_J", "m/s²", 4}, [](const L& l) { return optional_cell(l.row.joint_peak); }},
-        {{"slip_mm", "slip", "mm", 5}, [](const L& l) { return optional_cell(slip_of(l.row), mm); }}};
+        {{"joint_peak_m_s2", "max a_J", "m/s²", 4}, [](const L& l) { return l.row.joint_peak; }},
+        {{"slip_mm", "slip", "mm", 5}, [](const L& l) { return slip_of(l.row); }, mm}};
     columns.insert(columns.end(), rest.begin(), rest.end());
     return table_of<L>("Lifts", columns, lifts,
                        {fmt::format("N', T, F, stresses (compression positive, effective) and crack in {}; a_y: of the ground, "
@@ -215,7 +207,7 @@ Table block_table(const Planes& planes)
     return table_of<B>(
         "Blocks",
         {{{"plane", "plane"}, [](const B& b) { return b.plane.name; }},
-         {{"block", "block"}, [](const B& b) { return count_cell(b.i + 1); }},
+         {{"block", "block"}, [](const B& b) { return b.i + 1; }},
          {{"theta_deg", "θ", "°", 4}, of_segment(&sliding::ChainBlock::dip, degree)},
          {{"length_m", "L", "m", 4}, of_segment(&sliding::ChainBlock::length, 1.0)},
          {{"weight_kN_m", "W", "kN/m", 5},
@@ -229,31 +221,20 @@ Table block_table(const Planes& planes)
          {{"share", "share", "%", 3},
           [](const B& b) { return b.i < b.plane.shares.size() ? Cell(100.0 * b.plane.shares[b.i]) : Cell(); }}},
         blocks,
-        {"At the yield, from upstream to downstream; θ: dip downstream; R: resistance c L + μ N'; E and X: on the face to the "
-         "next block; q: speed over that of the dam; share: of the work of all resistances."});
+        {"At the yield, from upstream to downstream; θ: dip downstream; R: resistance c L + μ N'; E and X: on the face "
+         "to the next block; q: speed over that of the dam; share: of the work of all resistances."});
 }
 
 namespace {
-
-Chart empty_chart(std::string title, Axis x, Axis y)
-{
-    Chart chart;
-    chart.title = std::move(title);
-    chart.x = std::move(x);
-    chart.y = std::move(y);
-    return chart;
-}
 
 /// One curve over the elevation of the lifts.
 template <class Value>
 Curve over_elevation(const Planes& planes, const std::string& name, Value&& value, int colour)
 {
-    Curve curve{name, {}, {}, {}, {}, Mark::line_and_points, Weight::normal, colour};
-    for (const PlaneRow& row : planes.rows) {
-        if (row.kind != PlaneKind::lift) continue;
-        curve.x.push_back(planes.lifts[row.place].elevation);
-        curve.y.push_back(value(row, planes.lifts[row.place]));
-    }
+    Curve curve{.name = name, .mark = Mark::line_and_points, .colour = colour};
+    for (const PlaneRow& row : planes.rows)
+        if (row.kind == PlaneKind::lift)
+            curve.add(planes.lifts[row.place].elevation, value(row, planes.lifts[row.place]));
     return curve;
 }
 
@@ -263,7 +244,7 @@ std::vector<Part> lift_charts(const Planes& planes)
 {
     const Axis elevation{"elevation of the lift", "m"};
     const std::size_t last = planes.states.size() - 1;
-    Chart factor = empty_chart("Factor of safety over elevation", elevation, {"factor of safety", "–", Scale::log});
+    Chart factor{"Factor of safety over elevation", elevation, {"factor of safety", "–", Scale::log}};
     for (std::size_t i = 0; i < planes.states.size(); ++i) {
         factor.curves.push_back(over_elevation(
             planes, planes.states[i].ground.name,
@@ -271,8 +252,7 @@ std::vector<Part> lift_charts(const Planes& planes)
         if (planes.states[i].required)
             factor.horizontal.push_back({*planes.states[i].required, "required, " + planes.states[i].ground.name});
     }
-    Chart stress =
-        empty_chart("Stress over elevation", elevation, {"effective stress, compression positive", "kPa"});
+    Chart stress{"Stress over elevation", elevation, {"effective stress, compression positive", "kPa"}};
     stress.curves = {over_elevation(planes, "upstream face",
                                     [=](const auto&, const sliding::LiftPlane& l) { return l.states[last].heel_stress / kPa; }, 0),
                      over_elevation(planes, "downstream face",
@@ -280,7 +260,7 @@ std::vector<Part> lift_charts(const Planes& planes)
     stress.note = "Normal to the lift, in " + planes.states[last].ground.name + ".";
     std::vector<Part> parts{std::move(factor), std::move(stress)};
     if (planes.rows.front().slips.empty()) return parts;
-    Chart slip = empty_chart("Slip over elevation", elevation, {"largest slip", "mm", Scale::asinh});
+    Chart slip{"Slip over elevation", elevation, {"largest slip", "mm", Scale::asinh}};
     slip.curves.push_back(over_elevation(
         planes, "largest of all records",
         [](const PlaneRow& row, const auto&) { return slip_of(row).value_or(no_value) / mm; }, 0));
@@ -291,14 +271,14 @@ std::vector<Part> lift_charts(const Planes& planes)
 std::optional<Chart> wedge_chart(const Planes& planes, const sliding::SeamPlane& plane)
 {
     if (plane.trials.size() < 2) return std::nullopt;
-    Chart chart = empty_chart(fmt::format("Factor of safety over the wedge's angle, {}", plane.name),
-                              {"angle α of the wedge's plane", "°"}, {"factor of safety", "–"});
+    Chart chart{fmt::format("Factor of safety over the wedge's angle, {}", plane.name),
+                {"angle α of the wedge's plane", "°"},
+                {"factor of safety", "–"}};
     for (std::size_t i = 0; i < planes.states.size(); ++i) {
-        Curve curve{planes.states[i].ground.name, {}, {}, {}, {}, Mark::line_and_points, Weight::normal, int(i)};
+        Curve curve{.name = planes.states[i].ground.name, .mark = Mark::line_and_points, .colour = int(i)};
         for (const sliding::WedgeTrial& trial : plane.trials) {
-            curve.x.push_back(trial.angle / degree);
             const bool counts = trial.statuses[i] == sliding::ChainStatus::stands && std::isfinite(trial.factors[i]);
-            curve.y.push_back(counts ? trial.factors[i] : no_value);
+            curve.add(trial.angle / degree, counts ? trial.factors[i] : no_value);
         }
         chart.curves.push_back(std::move(curve));
         if (plane.factors[i].angle)
@@ -397,17 +377,19 @@ Table seam_factor_table(const Planes& planes)
         {{{"plane", "plane"}, [](const F& f) { return f.plane.name; }},
          {{"state", "state"}, &F::state},
          {{"factor", "F", "–", 5}, [](const F& f) { return finite_cell(f.factor.factor); }},
-         {{"alpha_deg", "α", "°", 4}, [](const F& f) { return optional_cell(in_degrees(f.factor.angle)); }},
+         {{"alpha_deg", "α", "°", 4}, [](const F& f) { return f.factor.angle; }, degree},
          {{"factor_smooth", "F smooth", "–", 5}, [](const F& f) { return finite_cell(f.factor.smooth); }},
          {{"factor_friction", "F Sarma", "–", 5}, [](const F& f) { return finite_cell(f.factor.friction); }},
-         {{"factor_without_wedge", "F, no wedge", "–", 5}, [](const F& f) { return finite_cell(f.factor.without_wedge); }},
-         {{"holding_friction", "μ that holds", "–", 5}, [](const F& f) { return finite_cell(f.plane.holding_friction); }},
+         {{"factor_without_wedge", "F, no wedge", "–", 5},
+          [](const F& f) { return finite_cell(f.factor.without_wedge); }},
+         {{"holding_friction", "μ that holds", "–", 5},
+          [](const F& f) { return finite_cell(f.plane.holding_friction); }},
          {{"valid_slip_m", "a_y + 5 % at", "m", 3}, [](const F& f) { return finite_cell(f.plane.valid_slip); }}},
         rows,
-        {"F smooth: faces between blocks without friction (USACE); F Sarma: with that of seam.interface; no wedge: nothing "
-         "before the body, as long as the slip that mobilises it is not granted.",
-         "μ that holds: of the seam, without an earthquake; a_y + 5 % at: slip at which rock on the wedge has raised a_y by "
-         "5 %."});
+        {"F smooth: faces between blocks without friction (USACE); F Sarma: with that of seam.interface; no wedge: "
+         "nothing before the body, as long as the slip that mobilises it is not granted.",
+         "μ that holds: of the seam, without an earthquake; a_y + 5 % at: slip at which rock on the wedge has raised "
+         "a_y by 5 %."});
 }
 
 Table work_table(const Planes& planes)
@@ -430,7 +412,7 @@ Table work_table(const Planes& planes)
         "Works",
         {{{"plane", "plane"}, &W::plane},
          {{"record", "record"}, &W::record},
-         {{"polarity", "polarity"}, [](const W& w) { return Cell(std::int64_t{w.polarity}); }},
+         {{"polarity", "polarity"}, &W::polarity},
          {{"ground_kJ_m", "ground", "kJ/m", 5}, of(&sliding::SeamLedger::ground)},
          {{"loads_kJ_m", "loads", "kJ/m", 5}, of(&sliding::SeamLedger::loads)},
          {{"water_kJ_m", "water below", "kJ/m", 5}, of(&sliding::SeamLedger::water)},
@@ -439,13 +421,13 @@ Table work_table(const Planes& planes)
          {{"wedge_kJ_m", "wedge", "kJ/m", 5}, of_wedge},
          {{"interface_kJ_m", "interface", "kJ/m", 5}, of_faces},
          {{"impact_kJ_m", "impacts", "kJ/m", 5}, [](const W& w) { return -w.slide.ledger.impact / kN; }},
-         {{"impacts", "number"}, [](const W& w) { return Cell(std::int64_t{w.slide.impacts}); }},
+         {{"impacts", "number"}, [](const W& w) { return w.slide.impacts; }},
          {{"gap_mm", "widest gap", "mm", 4}, [](const W& w) { return w.slide.slide.max_gap / mm; }},
          {{"error_share", "what is left", "–", 2},
           [](const W& w) { return w.slide.ledger.error() / std::max(1.0, std::abs(w.slide.ledger.ground)); }}},
         planes.works,
-        {"In the run of the largest slip, relative to the ground: what the ground's motion, static loads, water and weight do, "
-         "less what the planes and impacts take; what is left over that of the ground."});
+        {"In the run of the largest slip, relative to the ground: what the ground's motion, static loads, water and "
+         "weight do, less what the planes and impacts take; what is left over that of the ground."});
 }
 
 } // namespace
@@ -464,7 +446,7 @@ std::vector<Table> plane_tables(const Planes& planes, const Scene& scene, PlaneR
 
 Section plane_section(const Planes& planes, const Scene& scene)
 {
-    Section section{"Planes", {}, Fold::open};
+    Section section{"Planes"};
     for (Table& table : plane_tables(planes, scene, PlaneRows::all)) section.parts.push_back(rows_part(std::move(table)));
     for (const sliding::SeamPlane& plane : planes.seams) {
         section.parts.push_back(seam_drawing(scene, plane));

@@ -40,14 +40,18 @@ std::vector<double> column(const std::vector<std::vector<double>>& grid, std::si
     return out;
 }
 
+bool is_finite(double value)
+{
+    return std::isfinite(value);
+}
+
 /// A statistic of each row; none for a row that is not complete.
 template <class Statistic>
 std::vector<double> row_statistic(const std::vector<std::vector<double>>& grid, Statistic&& statistic)
 {
     std::vector<double> out;
     for (const auto& row : grid) {
-        const bool whole = std::all_of(row.begin(), row.end(), [](double v) { return std::isfinite(v); });
-        out.push_back(whole ? statistic(row) : nothing);
+        out.push_back(std::ranges::all_of(row, is_finite) ? statistic(row) : nothing);
     }
     return out;
 }
@@ -55,23 +59,18 @@ std::vector<double> row_statistic(const std::vector<std::vector<double>>& grid, 
 void add_set_curves(Chart& chart, const std::vector<double>& x, const std::vector<std::vector<double>>& grid)
 {
     const auto share = [](double q) { return [q](const std::vector<double>& row) { return percentile(row, q); }; };
-    Curve median{"median, band 16 to 84 %",
-                 x,
-                 row_statistic(grid, share(0.5)),
-                 row_statistic(grid, share(0.16)),
-                 row_statistic(grid, share(0.84)),
-                 Mark::line,
-                 Weight::strong,
-                 0};
-    Curve largest{"largest",
-                  x,
-                  row_statistic(grid, [](const auto& row) { return *std::max_element(row.begin(), row.end()); }),
-                  {},
-                  {},
-                  Mark::dashed,
-                  Weight::normal,
-                  1};
-    chart.curves = {std::move(median), std::move(largest)};
+    chart.curves = {{.name = "median, band 16 to 84 %",
+                     .x = x,
+                     .y = row_statistic(grid, share(0.5)),
+                     .low = row_statistic(grid, share(0.16)),
+                     .high = row_statistic(grid, share(0.84)),
+                     .weight = Weight::strong,
+                     .colour = 0},
+                    {.name = "largest",
+                     .x = x,
+                     .y = row_statistic(grid, [](const auto& row) { return std::ranges::max(row); }),
+                     .mark = Mark::dashed,
+                     .colour = 1}};
 }
 
 /// For people [mm]; not a number where the slide has none.
@@ -83,18 +82,16 @@ double largest_slip(const sliding::SlideResult& slide)
 /// Of the flexible block, by the analysis that is judged.
 Curve governing_by_record(const Screening& s)
 {
-    Curve curve{"flexible, judged", {}, {}, {}, {}, Mark::points, Weight::normal, 3};
-    for (std::size_t i = 0; 2 * i + 1 < s.slips.size(); ++i) {
-        curve.x.push_back(static_cast<double>(i));
-        curve.y.push_back(largest_slip(worse_judged(s, i).judged()));
-    }
+    Curve curve{.name = "flexible, judged", .mark = Mark::points, .colour = 3};
+    for (std::size_t i = 0; 2 * i + 1 < s.slips.size(); ++i)
+        curve.add(static_cast<double>(i), largest_slip(worse_judged(s, i).judged()));
     return curve;
 }
 
 /// The larger one of both polarities, where both have one.
 Curve elastic_by_record(const Screening& s, const std::vector<std::string>& records)
 {
-    Curve curve{"finite elements", {}, {}, {}, {}, Mark::points, Weight::normal, 2};
+    Curve curve{.name = "finite elements", .mark = Mark::points, .colour = 2};
     for (std::size_t i = 0; i < records.size(); ++i) {
         double largest = 0.0;
         bool found = false;
@@ -105,8 +102,7 @@ Curve elastic_by_record(const Screening& s, const std::vector<std::string>& reco
             found = true;
             if (!slip) break;
         }
-        curve.x.push_back(static_cast<double>(i));
-        curve.y.push_back(found ? largest : nothing);
+        curve.add(static_cast<double>(i), found ? largest : nothing);
     }
     return curve;
 }
@@ -127,14 +123,12 @@ std::optional<Chart> slip_over_friction(const Scene& scene, const Screening& s,
     const RigidModel& own = s.bases.front().model;
     const std::vector<double>& friction = found->friction;
     const auto grid = in_mm(found->slip);
-    Chart chart;
-    chart.title = "Slip over friction";
-    chart.x = {scene.wedge ? "friction μ of " + scene.wedge->planes.front().name : "friction μ", "–"};
-    chart.y = slip_axis();
+    Chart chart{"Slip over friction",
+                {scene.wedge ? "friction μ of " + scene.wedge->planes.front().name : "friction μ", "–"},
+                slip_axis()};
     if (motions.size() <= named_records)
         for (std::size_t j = 0; j < motions.size(); ++j)
-            chart.curves.push_back(
-                {motions[j].name, friction, column(grid, j), {}, {}, Mark::line, Weight::normal, -1});
+            chart.curves.push_back({motions[j].name, friction, column(grid, j)});
     else
         add_set_curves(chart, friction, grid);
     chart.vertical.push_back({own.block.friction, "scene"});
@@ -154,25 +148,19 @@ std::optional<Chart> slip_over_friction(const Scene& scene, const Screening& s,
 
 Chart slip_by_record(const Screening& s, const std::optional<double>& allowable)
 {
-    Chart chart;
-    chart.title = "Largest slip of each record";
-    chart.x.label = "record";
-    chart.y = slip_axis();
+    Chart chart{"Largest slip of each record", {"record"}, slip_axis()};
     const bool both = s.elastic && !s.elastic->runs.empty();
     const std::string block = both ? "rigid block, " : "";
-    Curve h{block + "horizontal", {}, {}, {}, {}, Mark::points, Weight::normal, 0};
-    Curve hv{block + "with vertical", {}, {}, {}, {}, Mark::points, Weight::normal, 1};
+    Curve h{.name = block + "horizontal", .mark = Mark::points, .colour = 0};
+    Curve hv{.name = block + "with vertical", .mark = Mark::points, .colour = 1};
     for (std::size_t i = 0; 2 * i + 1 < s.slips.size(); ++i) {
         chart.x.categories.push_back(s.slips[2 * i].record);
-        h.x.push_back(static_cast<double>(i));
-        h.y.push_back(largest_slip(worse_horizontal(s, i).horizontal));
+        h.add(static_cast<double>(i), largest_slip(worse_horizontal(s, i).horizontal));
         const SlipRow* row = worse_with_vertical(s, i);
-        hv.x.push_back(static_cast<double>(i));
-        hv.y.push_back(row ? largest_slip(*row->with_vertical) : nothing);
+        hv.add(static_cast<double>(i), row ? largest_slip(*row->with_vertical) : nothing);
     }
     chart.curves.push_back(std::move(h));
-    if (std::any_of(hv.y.begin(), hv.y.end(), [](double v) { return std::isfinite(v); }))
-        chart.curves.push_back(std::move(hv));
+    if (std::ranges::any_of(hv.y, is_finite)) chart.curves.push_back(std::move(hv));
     if (s.flexible) chart.curves.push_back(governing_by_record(s));
     if (both) chart.curves.push_back(elastic_by_record(s, chart.x.categories));
     if (allowable) chart.horizontal.push_back({*allowable / mm, "allowable"});
@@ -182,31 +170,24 @@ Chart slip_by_record(const Screening& s, const std::optional<double>& allowable)
 
 Chart slip_over_ratio(const Screening& s)
 {
-    Chart chart;
-    chart.title = "Slip over a_y/PGA";
-    chart.x = {"a_y/PGA", "–"};
-    chart.y = slip_axis();
+    Chart chart{"Slip over a_y/PGA", {"a_y/PGA", "–"}, slip_axis()};
     const double a_y = s.bases.front().model.downstream.law.constant;
     std::vector<std::size_t> order(s.slips.size() / 2);
     std::iota(order.begin(), order.end(), 0u);
     std::erase_if(order, [&](std::size_t i) { return !(s.slips[2 * i].pga > 0); });
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return s.slips[2 * a].pga > s.slips[2 * b].pga; });
-    Curve h{"horizontal", {}, {}, {}, {}, Mark::points, Weight::normal, 0};
-    Curve hv{"with vertical", {}, {}, {}, {}, Mark::points, Weight::normal, 1};
+    std::ranges::stable_sort(order,
+                             [&](std::size_t a, std::size_t b) { return s.slips[2 * a].pga > s.slips[2 * b].pga; });
+    Curve h{.name = "horizontal", .mark = Mark::points, .colour = 0};
+    Curve hv{.name = "with vertical", .mark = Mark::points, .colour = 1};
     for (const std::size_t i : order) {
         const double ratio = a_y / s.slips[2 * i].pga;
-        h.x.push_back(ratio);
-        h.y.push_back(largest_slip(worse_horizontal(s, i).horizontal));
-        if (const SlipRow* row = worse_with_vertical(s, i)) {
-            hv.x.push_back(ratio);
-            hv.y.push_back(largest_slip(*row->with_vertical));
-        }
+        h.add(ratio, largest_slip(worse_horizontal(s, i).horizontal));
+        if (const SlipRow* row = worse_with_vertical(s, i)) hv.add(ratio, largest_slip(*row->with_vertical));
     }
     if (a_y < 0) // the ratio falls with the PGA's fall: back into ascending order
         for (Curve* c : {&h, &hv}) {
-            std::reverse(c->x.begin(), c->x.end());
-            std::reverse(c->y.begin(), c->y.end());
+            std::ranges::reverse(c->x);
+            std::ranges::reverse(c->y);
         }
     chart.curves.push_back(std::move(h));
     if (!hv.x.empty()) chart.curves.push_back(std::move(hv));
@@ -214,51 +195,48 @@ Chart slip_over_ratio(const Screening& s)
     return chart;
 }
 
+namespace {
+
+/// The regressions of record `number` with their bands beside its rigorous slip; nothing where none gives a slip.
 std::optional<Chart> regressions_beside(const Screening& s, std::size_t number)
 {
-    Chart chart;
-    chart.title = "Regressions beside the rigid block";
-    chart.x.label = "regression";
-    chart.y = {"slip", "mm", Scale::asinh};
-    Curve curve{"regression, 16 to 84 %", {}, {}, {}, {}, Mark::points, Weight::normal, 0};
+    Chart chart{"Regressions beside the rigid block", {"regression"}, {"slip", "mm", Scale::asinh}};
+    Curve curve{.name = "regression, 16 to 84 %", .mark = Mark::points, .colour = 0};
     for (const RegressionRow& row : s.regressions) {
         if (row.record != s.slips[2 * number].record || !row.valid) continue;
-        curve.x.push_back(static_cast<double>(chart.x.categories.size()));
+        const double median = row.median.value_or(nothing); // no published sigma: no band
+        curve.add(static_cast<double>(chart.x.categories.size()), median / mm, row.low.value_or(median) / mm,
+                  row.high.value_or(median) / mm);
         chart.x.categories.push_back(row.model);
-        curve.y.push_back(row.median.value_or(nothing) / mm);
-        curve.low.push_back(row.low.value_or(row.median.value_or(nothing)) / mm); // no published sigma: no band
-        curve.high.push_back(row.high.value_or(row.median.value_or(nothing)) / mm);
     }
-    if (std::none_of(curve.y.begin(), curve.y.end(), [](double v) { return v > 0; })) return std::nullopt;
+    if (std::ranges::none_of(curve.y, [](double v) { return v > 0; })) return std::nullopt;
     const auto add_line = [&chart](const sliding::SlideResult& slide, const char* name) {
         if (reported(slide.status, slide.max_slip)) chart.horizontal.push_back({largest_slip(slide), name});
     };
     add_line(worse_horizontal(s, number).horizontal, "rigid block, horizontal");
     if (const SlipRow* row = worse_with_vertical(s, number))
         add_line(*row->with_vertical, "rigid block, with vertical");
-    const bool any_zero =
-        std::any_of(curve.low.begin(), curve.low.end(), [](double v) { return v <= 0; }) ||
-        std::any_of(chart.horizontal.begin(), chart.horizontal.end(), [](const Line& line) { return line.at <= 0; });
-    if (!any_zero) chart.y.scale = Scale::log;
+    const auto zero = [](double v) { return v <= 0; };
+    if (std::ranges::none_of(curve.low, zero) && std::ranges::none_of(chart.horizontal, zero, &Line::at))
+        chart.y.scale = Scale::log;
     chart.curves.push_back(std::move(curve));
     chart.note = "Regressions take the horizontal component only; no point where a_y, record or magnitude lie outside "
                  "their data.";
     return chart;
 }
 
-namespace {
-
-/// A curve for each uplift model, the scene's own strong.
-Chart yield_chart(const Screening& s, const YieldVariation& found)
+/// A curve for each uplift model, the scene's own strong. @param own  the scene's value of x
+Chart yield_chart(const Screening& s, const YieldVariation& found, const std::string& title, const Axis& x, double own)
 {
-    Chart chart;
-    chart.y = {"yield acceleration", "m/s²"};
+    Chart chart{title, x, {"yield acceleration", "m/s²"}};
     chart.horizontal.push_back({0.0, "slides without an earthquake below"});
     if (s.largest_pga > 0) chart.horizontal.push_back({s.largest_pga, "largest PGA of the records"});
-    for (const YieldVariation::Curve& c : found.curves) {
-        const Weight weight = chart.curves.empty() ? Weight::strong : Weight::normal;
-        chart.curves.push_back({c.uplift, found.at, c.yield, {}, {}, Mark::line, weight, -1});
-    }
+    chart.vertical.push_back({own, "scene"});
+    for (const YieldVariation::Curve& c : found.curves)
+        chart.curves.push_back({.name = c.uplift,
+                                .x = found.at,
+                                .y = c.yield,
+                                .weight = chart.curves.empty() ? Weight::strong : Weight::normal});
     return chart;
 }
 
@@ -266,19 +244,14 @@ Chart yield_chart(const Screening& s, const YieldVariation& found)
 
 Chart yield_over_friction(const Scene& scene, const Screening& s)
 {
-    Chart chart = yield_chart(s, yields_by_friction(scene, s));
-    chart.title = "Yield acceleration over friction";
-    chart.x = {"friction μ", "–"};
-    chart.vertical.push_back({s.bases.front().model.block.friction, "scene"});
-    return chart;
+    return yield_chart(s, yields_by_friction(scene, s), "Yield acceleration over friction", {"friction μ", "–"},
+                       s.bases.front().model.block.friction);
 }
 
 Chart yield_over_level(const Scene& scene, const Screening& s)
 {
-    Chart chart = yield_chart(s, yields_by_level(scene, s));
-    chart.title = "Yield acceleration over the water level";
-    chart.x = {"reservoir level above the heel", "m"};
-    chart.vertical.push_back({scene.reservoir->level, "scene"});
+    Chart chart = yield_chart(s, yields_by_level(scene, s), "Yield acceleration over the water level",
+                              {"reservoir level above the heel", "m"}, scene.reservoir->level);
     chart.note =
         fmt::format("Friction {:.4g}; added mass and uplift follow the level.", s.bases.front().model.block.friction);
     return chart;
@@ -301,23 +274,16 @@ GroundMotion played(const GroundMotion& motion, const sliding::SlideResult& slid
     return records::as_played(motion, starts);
 }
 
-Axis time_axis()
-{
-    return {"time", "s"};
-}
+constexpr int low_chart = 260; ///< of less weight than the slip [px]
 
 Curve line(std::string name, std::vector<double> x, std::vector<double> y, int colour)
 {
-    return {std::move(name), std::move(x), std::move(y), {}, {}, Mark::line, Weight::normal, colour};
+    return {.name = std::move(name), .x = std::move(x), .y = std::move(y), .colour = colour};
 }
 
 Chart acceleration_chart(const GroundMotion& motion)
 {
-    Chart chart;
-    chart.title = motion.name + ": ground acceleration";
-    chart.x = time_axis();
-    chart.y = {"acceleration", "m/s²"};
-    chart.height = 260;
+    Chart chart = time_chart(motion.name + ": ground acceleration", {"acceleration", "m/s²"}, low_chart);
     chart.curves.push_back(line("horizontal, upstream", sample_times(motion), motion.accel_h, 0));
     if (!motion.accel_v.empty()) chart.curves.push_back(line("vertical, up", sample_times(motion), motion.accel_v, 1));
     return chart;
@@ -333,10 +299,7 @@ Curve slip_curve(const sliding::SlideHistory& history, const std::string& name, 
 /// Ground acceleration of the run and what the block withstands at each instant; it starts to slide where they cross.
 Chart demand_chart(const GroundMotion& motion, const sliding::SlideHistory& history, int polarity)
 {
-    Chart chart;
-    chart.title = motion.name + ": yield acceleration with vertical motion";
-    chart.x = time_axis();
-    chart.y = {"acceleration", "m/s²"};
+    Chart chart = time_chart(motion.name + ": yield acceleration with vertical motion", {"acceleration", "m/s²"});
     std::vector<double> demand = motion.accel_h;
     for (double& a : demand) a *= polarity;
     chart.curves.push_back(
@@ -361,10 +324,8 @@ void on_record_grid(const GroundMotion& motion, Curve& curve)
 Chart flexible_chart(const Scene& scene, const Screening& s, const RecordHistories::Flexible& found,
                      const GroundMotion& motion, std::size_t number, std::size_t records)
 {
-    Chart chart;
-    chart.title = motion.name + fmt::format(": slip of the flexible block, polarity {:+d}", found.polarity);
-    chart.x = time_axis();
-    chart.y = {"slip, downstream", "mm"};
+    Chart chart = time_chart(fmt::format("{}: slip of the flexible block, polarity {:+d}", motion.name, found.polarity),
+                             {"slip, downstream", "mm"});
     const auto& decoupled = found.slips.decoupled;
     const auto& coupled = found.slips.coupled;
     if (decoupled) chart.curves.push_back(slip_curve(decoupled->slide.history, "decoupled", 2));
@@ -379,10 +340,9 @@ Chart flexible_chart(const Scene& scene, const Screening& s, const RecordHistori
 /// Slip of the block that rocks.
 Chart rocking_chart(const GroundMotion& motion, const RecordHistories::Rocking& found)
 {
-    Chart chart;
-    chart.title = motion.name + fmt::format(": block that rocks and slides, polarity {:+d}", found.polarity);
-    chart.x = time_axis();
-    chart.y = {"slip, downstream", "mm"};
+    Chart chart =
+        time_chart(fmt::format("{}: block that rocks and slides, polarity {:+d}", motion.name, found.polarity),
+                   {"slip, downstream", "mm"});
     chart.curves.push_back(slip_curve(found.motion.slide.history, "slip", 2));
     if (found.motion.slide.status == Status::overturned) chart.note = "It overturns.";
     return chart;
@@ -397,11 +357,7 @@ Chart rotation_chart(const GroundMotion& motion, const RecordHistories::Rocking&
         toe.push_back(length * std::sin(std::max(0.0, -rotation)) / units::mm);
     }
     const std::vector<double>& time = found.motion.slide.history.time;
-    Chart chart;
-    chart.title = motion.name + ": opening of the block that rocks";
-    chart.x = time_axis();
-    chart.y = {"opening", "mm"};
-    chart.height = 260;
+    Chart chart = time_chart(motion.name + ": opening of the block that rocks", {"opening", "mm"}, low_chart);
     chart.curves.push_back(line("heel open", time, std::move(heel), 0));
     chart.curves.push_back(line("toe open", time, std::move(toe), 1));
     chart.note = "At the samples; shorter ones between them are in the table's largest values.";
@@ -416,11 +372,8 @@ Chart carried_chart(const GroundMotion& motion, const RecordHistories::Rocking& 
         return force;
     };
     const sliding::SlideHistory& history = found.motion.slide.history;
-    Chart chart;
-    chart.title = motion.name + ": what carries the block that rocks";
-    chart.x = time_axis();
-    chart.y = {"force over weight", "–"};
-    chart.height = 260;
+    Chart chart =
+        time_chart(motion.name + ": what carries the block that rocks", {"force over weight", "–"}, low_chart);
     chart.curves.push_back(line("uplift U", history.time, share(found.motion.uplift), 1));
     chart.curves.push_back(line("normal force N′", history.time, share(history.normal_force), 0));
     chart.note = "Uplift on heel or toe by uplift.opening; N′ jumps where a corner leaves the rock or comes down.";
@@ -457,10 +410,7 @@ std::vector<Part> record_parts(const Scene& scene, const Screening& s, const Gro
     };
     add(acceleration_chart(shown));
 
-    Chart slip;
-    slip.title = motion.name + ": slip";
-    slip.x = time_axis();
-    slip.y = {scene.wedge ? "slip" : "slip, downstream", "mm"};
+    Chart slip = time_chart(motion.name + ": slip", {scene.wedge ? "slip" : "slip, downstream", "mm"});
     const SlipRow& h = worse_horizontal(s, number);
     const sliding::SlideResult& horizontal = found.horizontal.slide;
     add_slip_curve(horizontal, fmt::format("horizontal, polarity {:+d}", h.polarity), 0, slip);

@@ -11,7 +11,6 @@
 #include "sliding/empirical/regression.hpp"
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -36,9 +35,6 @@ Chart slip_by_record(const Screening& s, const std::optional<double>& allowable)
 
 /// Largest slip of each record over a_y/PGA.
 Chart slip_over_ratio(const Screening& s);
-
-/// The regressions of record `number` with their bands beside its rigorous slip; nothing where none gives a slip.
-std::optional<Chart> regressions_beside(const Screening& s, std::size_t number);
 
 /// Ground acceleration, slip histories, and (with a vertical component) yield against ground acceleration as
 /// Goldgruber (2015), fig. 4-7, of one record; regressions beside the slip. The charts share cursor and zoom.
@@ -76,9 +72,6 @@ std::vector<std::string> screen_notes(const Ready& ready);
 
 /// Section, effects, limit equilibrium, yield acceleration, slip over friction and records, each record, provenance.
 Page screen_page(const ScreenReportInput& input);
-
-/// The page as one HTML file.
-std::string screen_report(const ScreenReportInput& input);
 
 Answer screen_answer(const ScreenReportInput& input);
 

@@ -17,7 +17,6 @@
 #include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -137,7 +136,7 @@ std::string metres_per_second2(double a)
 
 Section wedge_part(const Scene& scene, const RigidModel& model)
 {
-    Section section{"Wedge", {}, Fold::open};
+    Section section{"Wedge"};
     if (auto drawing = wedge_drawing(scene, *model.wedge)) section.parts.push_back(std::move(*drawing));
     section.parts.push_back(stereonet(scene, *model.wedge));
     section.parts.push_back(rows_part(wedge_stability_table(scene, model)));
@@ -150,19 +149,19 @@ Section section_part(const Scene& scene, const Screening& s)
     if (scene.wedge) return wedge_part(scene, s.bases.front().model);
     const Scene solved = with_solved_uplift(scene, s);
     const sliding::BaseState state = sliding::base_state(solved, sliding::scene_static_case(solved));
-    return {"Section", {section_drawing(scene, state.base.profile)}, Fold::open};
+    return {"Section", {section_drawing(scene, state.base.profile)}};
 }
 
 Section yield_section(const Scene& scene, const Screening& s)
 {
-    Section section{"Yield acceleration", {}, Fold::open};
+    Section section{"Yield acceleration"};
     if (scene.wedge) {
         const RigidWedge& wedge = *s.bases.front().model.wedge;
         section.parts.push_back(rows_part(wedge_yield_table(scene, wedge)));
         section.parts.push_back(wedge_yield_chart(wedge, s.largest_pga));
         return section;
     }
-    section.parts.push_back(TablePart{yield_table(s), Layout::columns, 1, Fold::open});
+    section.parts.push_back(TablePart{yield_table(s), Layout::columns, 1});
     section.parts.push_back(yield_over_friction(scene, s));
     if (scene.reservoir) section.parts.push_back(yield_over_level(scene, s));
     if (!scene.anchors.empty()) section.parts.push_back(rows_part(anchor_list_table(scene)));
@@ -177,7 +176,7 @@ Section yield_section(const Scene& scene, const Screening& s)
 Section slip_section(const ScreenReportInput& in, const std::vector<GroundMotion>& motions)
 {
     const Screening& s = in.screening;
-    Section section{"Slip", {}, Fold::open};
+    Section section{"Slip"};
     if (s.elastic) section.parts.push_back(rows_part(elastic_table(s, in.scene.criteria.allowable_slip)));
     section.parts.push_back(rows_part(slip_table(s, in.scene.criteria.allowable_slip)));
     if (in.mean_polarity) section.parts.push_back(rows_part(mean_slip_table(s)));
@@ -202,10 +201,7 @@ Section slip_section(const ScreenReportInput& in, const std::vector<GroundMotion
 
 std::vector<Section> record_sections(const ScreenReportInput& in, const std::vector<GroundMotion>& motions)
 {
-    std::vector<Section> sections(1);
-    sections[0] = {"Records", {}, Fold::open};
-    sections[0].parts.push_back(record_part(record_table(motions)));
-    sections[0].parts.push_back(spectra(motions, in.jobs));
+    std::vector<Section> sections{records_section(motions, in.jobs)};
     std::vector<std::vector<Part>> parts(motions.size());
     parallel_for(motions.size(), in.jobs, [&](std::size_t i) {
         parts[i] = record_parts(in.scene, in.screening, motions[i], i, motions.size());
@@ -271,7 +267,7 @@ Headline block_headline(const Scene& scene, const Screening& s)
     const std::string sentence = slip_sentence(scene, s) + (premises.empty() ? "" : " But it " + premises.front() + ".");
     if (statuses_of(s).exit_code() != exit_ok) return {sentence, Outcome::unresolved, "No answer of some runs."};
     const std::optional<double>& allowable = scene.criteria.allowable_slip;
-    const auto any = [&](const std::vector<SlipRow>& rows, auto&& is) { return std::any_of(rows.begin(), rows.end(), is); };
+    const auto any = [&](const std::vector<SlipRow>& rows, auto&& is) { return std::ranges::any_of(rows, is); };
     const auto judged = [&](Verdict verdict) {
         return any(s.slips, [&](const SlipRow& row) { return judge(row, allowable) == verdict; });
     };
@@ -306,7 +302,7 @@ Headline judged_headline(const Scene& scene, const Screening& s)
         return block;
     }
     if (s.elastic) block.sentence += " The elastic dam was not run: " + s.elastic->why_not;
-    if (block.outcome == Outcome::pass && !std::all_of(s.slips.begin(), s.slips.end(), vibrates))
+    if (block.outcome == Outcome::pass && !std::ranges::all_of(s.slips, vibrates))
         return {block.sentence, Outcome::unresolved, "Below the allowable as a rigid block; elasticity not checked."};
     return block;
 }
@@ -386,17 +382,12 @@ Page screen_page(const ScreenReportInput& in)
     if (in.spectrum) page.sections.push_back(spectrum_section(*in.spectrum));
     if (!motions.empty())
         for (Section& section : record_sections(in, motions)) page.sections.push_back(std::move(section));
-    page.sections.push_back({"Effects taken into account", {effect_part(in.screening.plan)}, Fold::open});
+    page.sections.push_back({"Effects taken into account", {effect_part(in.screening.plan)}});
     page.sections.push_back(limits_section(in.scene, Method::rigid_block));
-    page.sections.push_back({"Scene", {scene_listing(in.given)}, Fold::open});
+    page.sections.push_back({"Scene", {scene_listing(in.given)}});
     page.provenance = provenance(in);
     order_sections(in.scene.criteria.report_order, page);
     return page;
-}
-
-std::string screen_report(const ScreenReportInput& in)
-{
-    return page_html(screen_page(in));
 }
 
 // The screening as object, text and CSV files.
@@ -541,7 +532,7 @@ void write_screening(const std::filesystem::path& folder, const ScreenReportInpu
 {
     answer.write(folder, {"damslip " + program_version(), "scene " + in.screening.plan.scene_hash});
     write_file(folder / "scene.resolved.toml", resolved_toml(in.given));
-    write_file(folder / "report.html", screen_report(in));
+    write_file(folder / "report.html", page_html(screen_page(in)));
 }
 
 } // namespace damslip::pages

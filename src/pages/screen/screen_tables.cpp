@@ -77,8 +77,8 @@ void note_premises(const Screening& s, const std::optional<double>& allowable, T
 {
     if (allowable && s.dry_base)
         table.notes.push_back("verdict: of a base taken as dry although there is water on the dam.");
-    const bool rocks = std::any_of(s.slips.begin(), s.slips.end(),
-                                   [](const SlipRow& row) { return row.governing().method == "rocking"; });
+    const bool rocks =
+        std::ranges::any_of(s.slips, [](const SlipRow& row) { return row.governing().method == "rocking"; });
     for (const std::string& premise : broken_premises(s))
         table.notes.push_back((rocks ? "judged by the block that rocks and slides: the dam " : "no PASS: the dam ") +
                               premise + ".");
@@ -91,8 +91,7 @@ void note_verdict(const Screening& s, const std::optional<double>& allowable, Ta
     table.notes.push_back(
         fmt::format("verdict: largest slip against criteria.allowable_slip = {:.4g} mm{}.", *allowable / mm,
                     s.slips.front().of_dam ? "; below: no PASS, the rigid block is no upper bound of an elastic dam" : ""));
-    if (std::any_of(s.slips.begin(), s.slips.end(),
-                    [](const SlipRow& row) { return std::isnan(row.governing().error); }))
+    if (std::ranges::any_of(s.slips, [](const SlipRow& row) { return std::isnan(row.governing().error); }))
         table.notes.push_back("undecided: the error of SLAMMER's scheme is not known; --scheme exact has none.");
 }
 
@@ -162,19 +161,18 @@ Table yield_table(const Screening& s)
 Table lift_joint_table(const Scene& scene)
 {
     using B = LiftBlock;
-    Table t = table_of<B>(
-        "Blocks above the lift joints",
-        {{{"joint", "joint"}, &B::joint},
-         {{"elevation_m", "elevation", "m", 5}, &B::elevation},
-         {{"friction", "μ", "–", 4}, &B::friction},
-         {{"normal_force_kN_m", "N'", "kN/m", 6}, [](const B& b) { return b.normal_force / 1e3; }},
-         {{"shear_force_kN_m", "T", "kN/m", 6}, [](const B& b) { return b.shear_force / 1e3; }},
-         {{"sliding_factor", "sliding factor", "–", 4}, [](const B& b) { return optional_cell(b.sliding_factor); }},
-         {{"critical_friction", "critical μ", "–", 6}, &B::critical_friction},
-         {{"yield_acceleration_m_s2", "a_y downstream", "m/s²", 6}, &B::yield_acceleration},
-         {{"yield_coefficient_g", "a_y downstream", "g", 6},
-          [](const B& b) { return b.yield_acceleration / standard_gravity; }}},
-        lift_blocks(scene));
+    Table t =
+        table_of<B>("Blocks above the lift joints",
+                    {{{"joint", "joint"}, &B::joint},
+                     {{"elevation_m", "elevation", "m", 5}, &B::elevation},
+                     {{"friction", "μ", "–", 4}, &B::friction},
+                     {{"normal_force_kN_m", "N'", "kN/m", 6}, &B::normal_force, 1e3},
+                     {{"shear_force_kN_m", "T", "kN/m", 6}, &B::shear_force, 1e3},
+                     {{"sliding_factor", "sliding factor", "–", 4}, &B::sliding_factor},
+                     {{"critical_friction", "critical μ", "–", 6}, &B::critical_friction},
+                     {{"yield_acceleration_m_s2", "a_y downstream", "m/s²", 6}, &B::yield_acceleration},
+                     {{"yield_coefficient_g", "a_y downstream", "g", 6}, &B::yield_acceleration, standard_gravity}},
+                    lift_blocks(scene));
     if (!t.rows.empty())
         t.notes.push_back("a_y: acceleration of the joint at which the block above starts to slide; the dam below "
                           "amplifies that of the ground, which `damslip fe` computes.");
@@ -209,7 +207,7 @@ Table mean_slip_table(const Screening& s)
     std::vector<ColumnOf<Row>> columns{{{"record", "record"}, &Row::record},
                                        {{"mean_slip_h_mm", "slip h", "mm", 5}, mean(&Row::horizontal)},
                                        {{"mean_slip_hv_mm", "slip h+v", "mm", 5}, mean(&Row::vertical)}};
-    if (std::any_of(rows.begin(), rows.end(), [](const Row& r) { return !r.governing.empty(); }))
+    if (std::ranges::any_of(rows, [](const Row& r) { return !r.governing.empty(); }))
         columns.push_back({{"mean_slip_flexible_mm", "flexible block", "mm", 5}, mean(&Row::governing)});
     return table_of<Row>(
         "Mean of both polarities", columns, rows,
@@ -220,11 +218,18 @@ Table mean_slip_table(const Screening& s)
 Table elastic_table(const Screening& s, const std::optional<double>& allowable)
 {
     const RunColumns c(allowable);
-    Table t = table_of<ContactRun>(
-        "Elastic dam, reduced finite elements",
-        {c.record, c.polarity, c.status, {c.slip_in_words.column, c.slip.value}, c.total_error, c.error_parts, c.max_slip,
-         c.rigid_slip, c.dt, c.verdict},
-        s.elastic->runs);
+    Table t = table_of<ContactRun>("Elastic dam, reduced finite elements",
+                                   {record_of_run,
+                                    polarity_of_run,
+                                    c.status,
+                                    {c.slip_in_words.column, c.slip.value},
+                                    c.total_error,
+                                    c.error_parts,
+                                    c.max_slip,
+                                    c.rigid_slip,
+                                    c.dt,
+                                    c.verdict},
+                                   s.elastic->runs);
     t.notes = {"slip: area mean over the base since the static state, positive downstream; ± total: what steps and modes "
                "left out leave open (estimate), nothing of the mesh, which  damslip fe  adds."};
     if (!s.elastic->why_not.empty()) t.notes.push_back(s.elastic->why_not);
@@ -245,18 +250,20 @@ Table slip_table(const Screening& s, const std::optional<double>& allowable)
         {{"pga_m_s2", "PGA", "m/s²", 4}, &R::pga},
         {{"yield_over_pga", "a_y/PGA", "–", 4},
          [=](const R& r) { return r.pga > 0 ? finite_cell(a_y / r.pga) : Cell(); }},
-        {in_brief({"slip_h_mm", "slip h", "mm", 5}), [](const R& r) { return slip_cell(r.horizontal, r.horizontal.slip / mm); }},
+        {in_brief({"slip_h_mm", "slip h", "mm", 5}),
+         [](const R& r) { return slip_cell(r.horizontal, r.horizontal.slip / mm); }},
         {in_brief({"slip_hv_mm", "slip h+v", "mm", 5}), with_vertical},
-        {ranking({"max_slip_m", "largest slip", "m", 5}), [](const R& r) { return slip_cell(r.rigid(), r.rigid().max_slip); }},
+        {ranking({"max_slip_m", "largest slip", "m", 5}),
+         [](const R& r) { return slip_cell(r.rigid(), r.rigid().max_slip); }},
         {{"upstream_slip_mm", "upstream", "mm", 4},
          [](const R& r) { return slip_cell(r.rigid(), r.rigid().upstream_slip / mm); }},
-        {{"lift_offs", "lift-offs"}, [](const R& r) { return count_cell(r.rigid().lift_offs); }},
+        {{"lift_offs", "lift-offs"}, [](const R& r) { return r.rigid().lift_offs; }},
         {in_brief({"status", "status"}), [](const R& r) { return word(r.rigid().status); }},
         {in_brief({"verdict", "verdict"}), [&](const R& r) { return rigid_verdict_cell(r, allowable); }}};
     const sliding::SlipStages& stages = s.bases.front().model.stages;
     if (!stages.empty() && stages.front().restitution > 0.0) {
         const std::vector<ColumnOf<R>> rebounds{
-            {{"landings", "impacts"}, [](const R& r) { return count_cell(r.rigid().landings); }},
+            {{"landings", "impacts"}, [](const R& r) { return r.rigid().landings; }},
             {{"impact_J_m", "lost in impacts", "J/m", 4}, [](const R& r) { return r.rigid().impact_loss; }}};
         columns.insert(columns.end() - 2, rebounds.begin(), rebounds.end());
     }
@@ -284,27 +291,12 @@ Table screened_anchor_table(const Screening& s)
 
 Table event_table(const Screening& s)
 {
-    struct Row {
-        const SlipRow& of;
-        const EventSlip& event;
-    };
-    std::vector<Row> rows;
+    std::vector<EventRow> rows;
     for (const SlipRow& row : s.slips)
-        for (const EventSlip& event : row.rigid().events) rows.push_back({row, event});
-    return table_of<Row>("Slip by event",
-                         {{{"record", "sequence"}, [](const Row& r) { return r.of.record; }},
-                          {{"polarity", "polarity"}, [](const Row& r) { return Cell(r.of.polarity); }},
-                          {{"event", "event"}, [](const Row& r) { return r.event.name; }},
-                          {{"start_s", "from", "s", 6}, [](const Row& r) { return r.event.start; }},
-                          {{"end_s", "to", "s", 6}, [](const Row& r) { return r.event.end; }},
-                          {{"slip_of_event_mm", "slip of it", "mm", 5},
-                           [](const Row& r) { return optional_cell(reported(r.event.status, r.event.change), mm); }},
-                          {{"slip_so_far_mm", "slip so far", "mm", 5},
-                           [](const Row& r) { return optional_cell(reported(r.event.status, r.event.slip), mm); }},
-                          {{"status", "status"}, [](const Row& r) { return word(r.event.status); }}},
-                         rows,
-                         {"slip: positive downstream, the run to rest after each event included; with the vertical "
-                          "component where the records have one."});
+        for (const EventSlip& event : row.rigid().events) rows.push_back({row.record, row.polarity, event});
+    return event_run_table(rows, {},
+                           "slip: positive downstream, the run to rest after each event included; with the vertical "
+                           "component where the records have one.");
 }
 
 Table flexible_table(const Screening& s, const std::optional<double>& allowable)
@@ -337,7 +329,7 @@ Table flexible_table(const Screening& s, const std::optional<double>& allowable)
         {{"amplification_decoupled", "peak average/PGA decoupled", "–", 4}, over_pga(&FlexibleSlips::decoupled)},
         {{"amplification_coupled", "peak average/PGA coupled", "–", 4}, over_pga(&FlexibleSlips::coupled)},
         {{"coupled_slip_mm", "coupled, at the end", "mm", 5}, at_end},
-        {{"judged_by", "judged by"}, [](const R& r) { return std::string(r.governing().method); }},
+        {{"judged_by", "judged by"}, [](const R& r) { return r.governing().method; }},
         {{"status", "status"}, [](const R& r) { return word(r.judged().status); }},
         {{"verdict", "verdict"}, [&](const R& r) { return verdict_cell(judge(r, allowable)); }}};
     const auto of_column = [](auto value) {
@@ -397,7 +389,7 @@ Table rocking_table(const Screening& s, const std::optional<double>& allowable)
           [=](const R& r) { return opening(r, r.rocking->max_toe_rotation); }},
          {{"toe_opening_mm", "toe opens", "mm", 4},
           [=](const R& r) { return opening(r, r.rocking->max_heel_rotation); }},
-         {{"landings", "impacts"}, [](const R& r) { return count_cell(r.rocking->landings); }},
+         {{"landings", "impacts"}, [](const R& r) { return r.rocking->landings; }},
          {{"friction_work_kJ_m", "friction", "kJ/m", 4}, [=](const R& r) { return lost(r.rocking->energy.friction); }},
          {{"landing_loss_kJ_m", "impact loss", "kJ/m", 4},
           [=](const R& r) { return lost(r.rocking->energy.landings); }},
@@ -422,7 +414,7 @@ Table bond_table(const Screening& s, const std::optional<double>& allowable)
         "Displacement without the bond (c = 0)",
         {{{"record", "record"}, &R::record},
          {{"polarity", "polarity"}, &R::polarity},
-         {{"judged_by", "judged by"}, [](const R& r) { return std::string(r.governing().method); }},
+         {{"judged_by", "judged by"}, [](const R& r) { return r.governing().method; }},
          {{"slip_mm", "slip", "mm", 5}, [](const R& r) { return slip_cell(r.judged(), r.judged().slip / mm); }},
          {{"max_slip_mm", "largest slip", "mm", 5},
           [](const R& r) { return slip_cell(r.judged(), r.judged().max_slip / mm); }},
@@ -441,13 +433,10 @@ using RegressionColumn = ColumnOf<RegressionRow>;
 
 const RegressionColumn record_column{{"record", "record"}, &RegressionRow::record},
     model_column{in_brief({"model", "regression"}), &RegressionRow::model},
-    slip_column{ranking({"slip_mm", "slip", "mm", 4}), [](const RegressionRow&r) { return optional_cell(r.median, mm); }},
-    low_column{in_brief({"slip_minus_sigma_mm", "16 %", "mm", 4}),
-               [](const RegressionRow&r) { return optional_cell(r.low, mm); }},
-    high_column{in_brief({"slip_plus_sigma_mm", "84 %", "mm", 4}),
-                [](const RegressionRow&r) { return optional_cell(r.high, mm); }},
-    zero_column{{"zero_probability", "P(D = 0)", "–", 3},
-                [](const RegressionRow&r) { return optional_cell(r.zero_probability); }},
+    slip_column{ranking({"slip_mm", "slip", "mm", 4}), &RegressionRow::median, mm},
+    low_column{in_brief({"slip_minus_sigma_mm", "16 %", "mm", 4}), &RegressionRow::low, mm},
+    high_column{in_brief({"slip_plus_sigma_mm", "84 %", "mm", 4}), &RegressionRow::high, mm},
+    zero_column{{"zero_probability", "P(D = 0)", "–", 3}, &RegressionRow::zero_probability},
     remark_column{in_brief({"remark", "remark"}), &RegressionRow::remark};
 
 } // namespace
@@ -466,7 +455,7 @@ Table needed_table(const std::vector<NeededRow>& rows, const Scene& scene)
          {{"k_allowable", "k(d*)", "g", 4}, [=](const R& r) { return r.yield ? Cell(in_g(*r.yield)) : Cell(); }},
          {{"k_allowable_over_k_max", "k(d*)/k_max", "–", 3},
           [](const R& r) { return r.yield && r.peak > 0.0 ? Cell(*r.yield / r.peak) : Cell(); }},
-         {{"friction", "friction", "–", 4}, [](const R& r) { return optional_cell(r.friction); }},
+         {{"friction", "friction", "–", 4}, &R::friction},
          {{"friction_over_given", "over the scene's", "–", 3},
           [&](const R& r) {
               const double given = scene.contact.friction;
@@ -494,10 +483,9 @@ Table regression_table(const std::vector<RegressionRow>& rows)
                         low_column,
                         high_column,
                         zero_column,
-                        {{"nonzero_slip_mm", "slip where D > 0", "mm", 4},
-                         [](const R& r) { return optional_cell(r.nonzero_median, mm); }},
+                        {{"nonzero_slip_mm", "slip where D > 0", "mm", 4}, &R::nonzero_median, mm},
                         {{"status", "status"}, &R::status},
-                        {{"weight", "weight", "–", 3}, [](const R& r) { return optional_cell(r.weight); }},
+                        {{"weight", "weight", "–", 3}, &R::weight},
                         remark_column},
                        rows);
 }
@@ -513,7 +501,7 @@ Table regression_summary(const std::vector<RegressionRow>& all)
             notes.push_back(std::move(line));
     }
     std::vector<RegressionColumn> columns{record_column, model_column, slip_column, low_column, high_column};
-    if (std::any_of(all.begin(), all.end(), [](const RegressionRow& row) { return row.valid && row.zero_probability; }))
+    if (std::ranges::any_of(all, [](const RegressionRow& row) { return row.valid && row.zero_probability; }))
         columns.push_back(zero_column);
     columns.push_back(remark_column);
     return table_of(regressions_title, columns, rows, std::move(notes));
@@ -542,7 +530,7 @@ Table statistics_table(const Screening& s)
     Table t = table_of<Q>(
         "Over the records (largest slip, worse polarity of each)",
         {{{"quantity", "method"}, &Q::quantity},
-         {{"n", "n"}, [](const Q& q) { return count_cell(q.n); }},
+         {{"n", "n"}, &Q::n},
          {{"median_mm", "median", "mm", 4}, [](const Q& q) { return finite_cell(q.median, mm); }},
          {{"percentile_16_mm", "16 %", "mm", 4}, [](const Q& q) { return finite_cell(q.percentile_16, mm); }},
          {{"percentile_84_mm", "84 %", "mm", 4}, [](const Q& q) { return finite_cell(q.percentile_84, mm); }},
@@ -576,18 +564,18 @@ Table given_yield_table(const GivenYieldBlock& block, const std::vector<GivenYie
 {
     using R = GivenYieldRow;
     std::vector<ColumnOf<R>> columns{
-        {in_brief({"yield_g", "a_y", "g", 5}), [](const R& r) { return r.yield / standard_gravity; }},
+        {in_brief({"yield_g", "a_y", "g", 5}), &R::yield, standard_gravity},
         {in_brief({"record", "record"}), &R::record},
         {in_brief({"method", "method"}), &R::method},
-        {{"pga_g", "PGA", "g", 4}, [](const R& r) { return r.pga / standard_gravity; }},
+        {{"pga_g", "PGA", "g", 4}, &R::pga, standard_gravity},
         {in_brief({"yield_over_pga", "a_y/PGA", "–", 4}),
          [](const R& r) { return r.pga > 0 ? finite_cell(r.yield / r.pga) : Cell(); }},
         {ranking({"slip_mm", "slip", "mm", 5}), [](const R& r) { return slip_or_none(r, r.normal.max_slip); }},
         {in_brief({"slip_inverse_mm", "slip, record flipped", "mm", 5}),
          [](const R& r) { return slip_or_none(r, r.inverse.max_slip); }},
-        {in_brief({"slip_mean_mm", "mean of both", "mm", 5}), [](const R& r) { return slip_or_none(r, r.mean_slip()); }},
-        {{"largest_acceleration_g", "largest acceleration", "g", 4},
-         [](const R& r) { return r.largest_acceleration / standard_gravity; }},
+        {in_brief({"slip_mean_mm", "mean of both", "mm", 5}),
+         [](const R& r) { return slip_or_none(r, r.mean_slip()); }},
+        {{"largest_acceleration_g", "largest acceleration", "g", 4}, &R::largest_acceleration, standard_gravity},
         {in_brief({"status", "status"}), [](const R& r) { return word(r.status()); }}};
     if (block.flexible) {
         const auto period = [](const R& r) { return r.mode ? Cell(r.mode->period) : Cell(); };
@@ -610,14 +598,13 @@ Table allowable_coefficient_table(const sliding::RegressionInputs& inputs, doubl
         if (const std::optional<double> k = yield_coefficient_for(r, inputs, allowable))
             rows.push_back({std::string(r.id), std::string(r.name), k});
     using R = CoefficientRow;
-    Table table =
-        table_of<R>(fmt::format("Yield coefficient for a median slip of {:.4g} mm", allowable / units::mm),
-                    {{in_brief({"id", "id"}), &R::id},
-                     {in_brief({"model", "regression"}), &R::model},
-                     {in_brief({"k_allowable", "k(d*)", "g", 4}), [](const R& r) { return optional_cell(r.coefficient); }},
-                     {in_brief({"k_allowable_over_pga", "k(d*)/PGA", "–", 3}),
-                      [&](const R& r) { return optional_cell(r.coefficient, inputs.pga_g); }}},
-                    rows);
+    Table table = table_of<R>(fmt::format("Yield coefficient for a median slip of {:.4g} mm", allowable / units::mm),
+                              {{in_brief({"id", "id"}), &R::id},
+                               {in_brief({"model", "regression"}), &R::model},
+                               {in_brief({"k_allowable", "k(d*)", "g", 4}), &R::coefficient},
+                               {in_brief({"k_allowable_over_pga", "k(d*)/PGA", "–", 3}),
+                                [&](const R& r) { return optional_cell(r.coefficient, inputs.pga_g); }}},
+                              rows);
     table.notes.push_back(
         "regressions whose inputs are given; those that slip less even at the smallest yield of their data "
         "are left out. Half of the slips are larger than the median.");

@@ -49,7 +49,7 @@ Table wedge_plane_table(const Scene& scene, const RigidWedge& wedge)
          {{"friction_deg", "φ", "°", 4}, [](const Row& r) { return angle_of_friction(r.plane.friction); }},
          {{"cohesion_kPa", "cohesion", "kPa", 4}, [](const Row& r) { return r.plane.cohesion / units::kPa; }},
          {{"water_force_MN", "water U", "MN", 5}, [](const Row& r) { return r.plane.water_force / MN; }},
-         {{"normal_force_MN", "N′", "MN", 5}, [](const Row& r) { return r.normal / MN; }}},
+         {{"normal_force_MN", "N′", "MN", 5}, &Row::normal, MN}},
         rows);
     const Vector3 line = cross(plane_normal(wedge.wedge.first.dip, wedge.wedge.first.dip_direction),
                                plane_normal(wedge.wedge.second.dip, wedge.wedge.second.dip_direction));
@@ -110,6 +110,9 @@ Table wedge_yield_table(const Scene& scene, const RigidWedge& wedge)
 {
     using R = WedgeYieldRow;
     const auto exists = [](const R& r) { return !std::isinf(r.yield.acceleration); }; // below 10 g
+    const auto if_it_exists = [=](auto value) {
+        return [=](const R& r) { return exists(r) ? cell_of(value(r)) : Cell(); };
+    };
     const auto mode = [&](const R& r) -> std::string {
         if (exists(r)) return mode_words(*scene.wedge, r.yield.state.mode);
         return r.yield.acceleration > 0.0 ? "not below 10 g" : "slides, even pushed back by 10 g";
@@ -117,17 +120,15 @@ Table wedge_yield_table(const Scene& scene, const RigidWedge& wedge)
     return table_of<R>(
         "Yield acceleration of the wedge",
         {{{"motion", "ground motion"}, &R::motion},
-         {{"azimuth_deg", "drives towards", "°", 4},
-          [](const R& r) { return optional_cell(r.azimuth, units::degree); }},
-         {{"yield_acceleration_m_s2", "a_y", "m/s²", 6},
-          [=](const R& r) { return exists(r) ? Cell(r.yield.acceleration) : Cell(); }},
+         {{"azimuth_deg", "drives towards", "°", 4}, &R::azimuth, units::degree},
+         {{"yield_acceleration_m_s2", "a_y", "m/s²", 6}, if_it_exists([](const R& r) { return r.yield.acceleration; })},
          {{"yield_coefficient_g", "a_y", "g", 6},
-          [=](const R& r) { return exists(r) ? Cell(r.yield.acceleration / units::standard_gravity) : Cell(); }},
+          if_it_exists([](const R& r) { return r.yield.acceleration / units::standard_gravity; })},
          {{"mode", "slides on"}, mode},
          {{"trend_deg", "towards", "°", 4},
-          [=](const R& r) { return exists(r) ? Cell(trend(r.yield.state.direction) / units::degree) : Cell(); }},
+          if_it_exists([](const R& r) { return trend(r.yield.state.direction) / units::degree; })},
          {{"plunge_deg", "plunge", "°", 4},
-          [=](const R& r) { return exists(r) ? Cell(plunge(r.yield.state.direction) / units::degree) : Cell(); }},
+          if_it_exists([](const R& r) { return plunge(r.yield.state.direction) / units::degree; })},
          {{"slip_factor", "slip per excess", "–", 4},
           [=](const R& r) { return exists(r) && r.azimuth ? Cell(r.yield.factor) : Cell(); }},
          {{"yield_per_vertical", "a_y per a_v", "–", 4},
@@ -140,15 +141,13 @@ Table wedge_yield_table(const Scene& scene, const RigidWedge& wedge)
 
 Chart wedge_yield_chart(const RigidWedge& wedge, double largest_pga)
 {
-    Chart chart;
-    chart.title = "Yield acceleration over the direction of the motion";
-    chart.x = {"azimuth the motion drives to", "°", Scale::linear, 0.1, 0.0, 360.0, {}};
-    chart.y = {"yield acceleration", "m/s²"};
-    Curve curve{"a_y", {}, {}, {}, {}, Mark::line, Weight::strong, 0};
+    Chart chart{"Yield acceleration over the direction of the motion",
+                {.label = "azimuth the motion drives to", .unit = "°", .low = 0.0, .high = 360.0},
+                {"yield acceleration", "m/s²"}};
+    Curve curve{.name = "a_y", .weight = Weight::strong, .colour = 0};
     double least = std::numeric_limits<double>::infinity();
     for (const double a : yields_over_azimuth(wedge.wedge)) {
-        curve.x.push_back(5.0 * static_cast<double>(curve.x.size()));
-        curve.y.push_back(a);
+        curve.add(5.0 * static_cast<double>(curve.x.size()), a);
         if (std::isfinite(a)) least = std::min(least, a);
     }
     if (least >= 0.0) chart.y.low = 0.0;
@@ -266,14 +265,11 @@ Drawing stereonet(const Scene& scene, const RigidWedge& w)
     const Point rim = on_net(w.push);
     sketch.arrow({0.86 * rim.x, 0.86 * rim.y}, {1.0 * rim.x, 1.0 * rim.y}, "ground");
     legend(sketch, row++, "ground", fmt::format("records, a_h > 0 drives towards {:.0f}°", w.azimuth / units::degree));
-    Drawing drawing;
-    drawing.title = "Stereonet";
-    drawing.svg =
-        sketch.svg("Stereonet with the great circles of both planes, their line of intersection and the way the "
-                   "wedge slides, " +
-                   direction_words(w.still.direction));
-    drawing.note = "Lower hemisphere, equal area. Dip/dip direction.";
-    return drawing;
+    return {"Stereonet",
+            sketch.svg("Stereonet with the great circles of both planes, their line of intersection and the way the "
+                       "wedge slides, " +
+                       direction_words(w.still.direction)),
+            "Lower hemisphere, equal area. Dip/dip direction."};
 }
 
 namespace {
@@ -357,17 +353,14 @@ std::optional<Drawing> wedge_drawing(const Scene& scene, const RigidWedge& w)
         sketch.arrow(from, to, "force");
         sketch.text(to, "slides", Align::start, 6, 10);
     }
-    Drawing drawing;
-    drawing.title = "The wedge in its slope";
-    drawing.svg =
+    return Drawing{
+        "The wedge in its slope",
         sketch.svg(fmt::format("The wedge of {:.4g} cubic metres between both planes, face and upper ground, with "
                                "the way it slides",
-                               shape->volume));
-    drawing.note =
+                               shape->volume)),
         fmt::format("Seen from before the face and from above, to scale. Dashed: the line of intersection inside the "
                     "rock, {:.4g} m high, {:.4g} m long. Volume {:.5g} m³, areas {:.5g} and {:.5g} m².",
-                    height, norm(shape->top), shape->volume, shape->first_area, shape->second_area);
-    return drawing;
+                    height, norm(shape->top), shape->volume, shape->first_area, shape->second_area)};
 }
 
 } // namespace damslip::pages

@@ -53,11 +53,6 @@ Formula max(const Formula& a, const Formula& b)
     return call("MAX", {a, b}, std::max(a.value(), b.value()));
 }
 
-Formula min(const Formula& a, const Formula& b)
-{
-    return call("MIN", {a, b}, std::min(a.value(), b.value()));
-}
-
 Formula if_greater(const Formula& a, const Formula& b, const Formula& then, const Formula& otherwise)
 {
     return {fmt::format("IF({}>{},{},{})", a.text(), b.text(), then.text(), otherwise.text()),
@@ -122,20 +117,26 @@ void Workbook::begin(const std::string& wanted)
 void Workbook::title(const std::string& text)
 {
     if (row_ > 0) ++row_;
-    worksheet_write_string(sheet_->page, static_cast<lxw_row_t>(row_++), name_column, text.c_str(), sheet_->bold);
+    words(name_column, text, Bold::yes);
+    ++row_;
 }
 
 void Workbook::note(const std::string& text)
 {
-    worksheet_write_string(sheet_->page, static_cast<lxw_row_t>(row_++), name_column, text.c_str(), nullptr);
+    words(name_column, text);
+    ++row_;
 }
 
 void Workbook::head(const std::vector<std::string>& columns)
 {
-    for (std::size_t i = 0; i < columns.size(); ++i)
-        worksheet_write_string(sheet_->page, static_cast<lxw_row_t>(row_), static_cast<lxw_col_t>(i), columns[i].c_str(),
-                               sheet_->bold);
+    for (std::size_t i = 0; i < columns.size(); ++i) words(static_cast<int>(i), columns[i], Bold::yes);
     ++row_;
+}
+
+void Workbook::words(int column, const std::string& text, Bold bold)
+{
+    worksheet_write_string(sheet_->page, static_cast<lxw_row_t>(row_), static_cast<lxw_col_t>(column), text.c_str(),
+                           bold == Bold::yes ? sheet_->bold : nullptr);
 }
 
 Formula Workbook::cell(int column, const Formula& value)
@@ -153,24 +154,24 @@ Formula Workbook::cell(int column, const Formula& value)
 
 Formula Workbook::put(const std::string& name, const Formula& value, const std::string& unit, const std::string& source)
 {
-    const auto row = static_cast<lxw_row_t>(row_);
-    worksheet_write_string(sheet_->page, row, name_column, name.c_str(), nullptr);
+    words(name_column, name);
     const Formula reference = cell(value_column, value);
-    worksheet_write_string(sheet_->page, row, unit_column, unit.c_str(), nullptr);
-    if (!source.empty()) worksheet_write_string(sheet_->page, row, source_column, source.c_str(), nullptr);
+    words(unit_column, unit);
+    if (!source.empty()) words(source_column, source);
     ++row_;
     return reference;
 }
 
 void Workbook::word(const std::string& name, const std::string& text)
 {
-    worksheet_write_string(sheet_->page, static_cast<lxw_row_t>(row_), name_column, name.c_str(), nullptr);
-    worksheet_write_string(sheet_->page, static_cast<lxw_row_t>(row_++), value_column, text.c_str(), nullptr);
+    words(name_column, name);
+    words(value_column, text);
+    ++row_;
 }
 
 std::vector<Formula> Workbook::row(const std::string& name, const std::vector<Formula>& cells)
 {
-    worksheet_write_string(sheet_->page, static_cast<lxw_row_t>(row_), name_column, name.c_str(), nullptr);
+    words(name_column, name);
     std::vector<Formula> references;
     for (std::size_t i = 0; i < cells.size(); ++i) references.push_back(cell(static_cast<int>(i) + 1, cells[i]));
     ++row_;
@@ -183,10 +184,11 @@ void Workbook::compare(const std::string& name, const Formula& of_sheet, double 
         word(name, "none");
         return;
     }
-    worksheet_write_string(sheet_->page, static_cast<lxw_row_t>(row_), name_column, name.c_str(), nullptr);
+    words(name_column, name);
     const Formula ours = cell(1, of_sheet), theirs = cell(2, of_program);
     cell(3, abs(ours - theirs) / max(max(abs(ours), abs(theirs)), 1e-300));
-    worksheet_write_string(sheet_->page, static_cast<lxw_row_t>(row_++), 4, unit.c_str(), nullptr);
+    words(4, unit);
+    ++row_;
 }
 
 void Workbook::close()

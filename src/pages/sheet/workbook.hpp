@@ -36,7 +36,6 @@ private:
 Formula sqrt(const Formula& a);
 Formula abs(const Formula& a);
 Formula max(const Formula& a, const Formula& b);
-Formula min(const Formula& a, const Formula& b);
 /// a > b ? then : otherwise
 Formula if_greater(const Formula& a, const Formula& b, const Formula& then, const Formula& otherwise);
 Formula sum(const std::vector<Formula>& terms);
@@ -67,6 +66,8 @@ public:
 
 private:
     struct Sheet;
+    enum class Bold { no, yes };
+    void words(int column, const std::string& text, Bold bold = Bold::no); ///< in the line
     Formula cell(int column, const Formula& value);
     std::filesystem::path part() const { return file_.string() + ".part"; } ///< until it is closed
     std::filesystem::path file_;

@@ -14,9 +14,6 @@ namespace {
 
 constexpr double kilo = 1e3;
 
-/// Of many records: three are shown mode by mode.
-constexpr std::size_t detailed_spectra = 3;
-
 } // namespace
 
 Table spectrum_table(const SpectrumLevel& level)
@@ -34,39 +31,52 @@ Table spectrum_table(const SpectrumLevel& level)
         "factors: static loads and the peak of the earthquake downstream together; a factor below 1 at one instant is "
         "not yet a failure: how far the dam slides is the question of the other levels."};
     notes.insert(notes.end(), level.notes.begin(), level.notes.end());
-    return table_of<R>(
-        "Response spectrum",
-        {{{"record", "record"}, &R::record},
-         {{"pga_m_s2", "PGA", "m/s²"}, &R::pga},
-         {{"base_shear_kN_m", "base shear", "kN/m", 5}, [](const R& r) { return r.shear / kilo; }},
-         {{"base_shear_srss_kN_m", "by SRSS", "kN/m", 5}, [](const R& r) { return r.shear_srss / kilo; }},
-         {{"seismic_coefficient", "coefficient", "–"}, &R::coefficient},
-         {{"base_moment_kN", "moment", "kN m/m", 5}, [](const R& r) { return r.moment / kilo; }},
-         {{"crest_mm", "crest", "mm"}, [](const R& r) { return r.crest / units::mm; }},
-         {{"heel_least_MPa", "heel, least", "MPa", 3}, [](const R& r) { return r.heel_least / MPa; }},
-         {{"toe_most_MPa", "toe, most", "MPa", 3}, [](const R& r) { return r.toe_most / MPa; }},
-         {{"sliding_factor", "sliding factor", "–", 3}, &R::sliding_factor},
-         {{"overturning_factor", "overturning factor", "–", 3}, &R::overturning_factor}},
-        level.rows, notes);
+    return table_of<R>("Response spectrum",
+                       {{{"record", "record"}, &R::record},
+                        {{"pga_m_s2", "PGA", "m/s²"}, &R::pga},
+                        {{"base_shear_kN_m", "base shear", "kN/m", 5}, &R::shear, kilo},
+                        {{"base_shear_srss_kN_m", "by SRSS", "kN/m", 5}, &R::shear_srss, kilo},
+                        {{"seismic_coefficient", "coefficient", "–"}, &R::coefficient},
+                        {{"base_moment_kN", "moment", "kN m/m", 5}, &R::moment, kilo},
+                        {{"crest_mm", "crest", "mm"}, &R::crest, units::mm},
+                        {{"heel_least_MPa", "heel, least", "MPa", 3}, &R::heel_least, MPa},
+                        {{"toe_most_MPa", "toe, most", "MPa", 3}, &R::toe_most, MPa},
+                        {{"sliding_factor", "sliding factor", "–", 3}, &R::sliding_factor},
+                        {{"overturning_factor", "overturning factor", "–", 3}, &R::overturning_factor}},
+                       level.rows, notes);
 }
 
-Table spectrum_mode_table(const SpectrumLevel& level, const SpectrumDemand& row)
+namespace {
+
+/// Of many records: three are shown mode by mode.
+constexpr std::size_t detailed_spectra = 3;
+
+/// Modes, their masses and shares of one spectrum's base shear, or of the normal force of its vertical component.
+Table mode_table(const SpectrumLevel& level, const SpectrumDemand& row, bool vertical)
 {
     using M = ModeShare;
-    return table_of<M>(
-        row.record + ": modes",
-        {{{"frequency_Hz", "frequency", "Hz", 5}, &M::frequency},
-         {{"period_s", "period", "s", 4}, [](const M& m) { return 1.0 / m.frequency; }},
-         {{"effective_mass_kg_m", "effective mass", "kg/m", 5}, &M::effective_mass},
-         {{"share_percent", "share", "%", 3}, [&](const M& m) { return 100.0 * m.effective_mass / level.total_mass; }},
-         {{"spectral_acceleration_m_s2", "S_a", "m/s²", 4}, &M::acceleration},
-         {{"base_shear_kN_m", "base shear", "kN/m", 5}, [](const M& m) { return m.base_shear / kilo; }}},
-        row.modes,
-        {fmt::format("total mass {:.5g} kg/m; left by the modes: {:.3g} %, under the PGA.", level.total_mass,
-                     100.0 * row.residual_mass / level.total_mass)});
+    const double total = vertical ? level.vertical_mass : level.total_mass,
+                 left = vertical ? row.vertical_residual_mass : row.residual_mass;
+    std::vector<ColumnOf<M>> columns{
+        {{"frequency_Hz", "frequency", "Hz", 5}, &M::frequency},
+        {{"effective_mass_kg_m", "effective mass", "kg/m", 5}, &M::effective_mass},
+        {{"share_percent", "share", "%", 3}, [=](const M& m) { return 100.0 * m.effective_mass / total; }},
+        {{"spectral_acceleration_m_s2", "S_a", "m/s²", 4}, &M::acceleration}};
+    if (vertical) {
+        columns.push_back({{"normal_force_kN_m", "normal force", "kN/m", 5}, &M::base_shear, kilo});
+    } else {
+        columns.insert(columns.begin() + 1,
+                       {{"period_s", "period", "s", 4}, [](const M& m) { return 1.0 / m.frequency; }});
+        columns.push_back({{"base_shear_kN_m", "base shear", "kN/m", 5}, &M::base_shear, kilo});
+    }
+    return table_of(row.record + (vertical ? ": modes, vertical" : ": modes"), columns,
+                    vertical ? row.vertical_modes : row.modes,
+                    {fmt::format("total mass {:.5g} kg/m; left by the modes: {:.3g} %, under the PGA.", total,
+                                 100.0 * left / total)});
 }
 
-Table spectrum_component_table(const SpectrumLevel& level)
+/// Each component of the earthquake and both together, where the spectra have a vertical one; else without rows.
+Table component_table(const SpectrumLevel& level)
 {
     struct Row {
         std::string record;
@@ -100,34 +110,20 @@ Table spectrum_component_table(const SpectrumLevel& level)
          "forces and moment: peaks of the earthquake alone, either way; stresses and factors: with the static loads."});
 }
 
-Table spectrum_vertical_mode_table(const SpectrumLevel& level, const SpectrumDemand& row)
-{
-    using M = ModeShare;
-    return table_of<M>(
-        row.record + ": modes, vertical",
-        {{{"frequency_Hz", "frequency", "Hz", 5}, &M::frequency},
-         {{"effective_mass_kg_m", "effective mass", "kg/m", 5}, &M::effective_mass},
-         {{"share_percent", "share", "%", 3},
-          [&](const M& m) { return 100.0 * m.effective_mass / level.vertical_mass; }},
-         {{"spectral_acceleration_m_s2", "S_a", "m/s²", 4}, &M::acceleration},
-         {{"normal_force_kN_m", "normal force", "kN/m", 5}, [](const M& m) { return m.base_shear / kilo; }}},
-        row.vertical_modes,
-        {fmt::format("total mass {:.5g} kg/m; left by the modes: {:.3g} %, under the PGA.", level.vertical_mass,
-                     100.0 * row.vertical_residual_mass / level.vertical_mass)});
-}
-
-Table spectrum_height_table(const SpectrumDemand& row)
+/// Equivalent lateral forces and sections over the height.
+Table height_table(const SpectrumDemand& row)
 {
     using L = LevelForce;
-    return table_of<L>(
-        row.record + ": forces over the height",
-        {{{"level_m", "level", "m"}, &L::level},
-         {{"lateral_force_kN_m", "lateral force up to the next", "kN/m"}, [](const L& l) { return l.lateral / kilo; }},
-         {{"shear_kN_m", "shear", "kN/m"}, [](const L& l) { return l.shear / kilo; }},
-         {{"moment_kN", "moment", "kN m/m"}, [](const L& l) { return l.moment / kilo; }},
-         {{"stress_MPa", "vertical stress at a face", "MPa", 3}, [](const L& l) { return l.stress / units::MPa; }}},
-        row.levels, {"peaks of the earthquake alone, either way; sections as beams (plane, linear)."});
+    return table_of<L>(row.record + ": forces over the height",
+                       {{{"level_m", "level", "m"}, &L::level},
+                        {{"lateral_force_kN_m", "lateral force up to the next", "kN/m"}, &L::lateral, kilo},
+                        {{"shear_kN_m", "shear", "kN/m"}, &L::shear, kilo},
+                        {{"moment_kN", "moment", "kN m/m"}, &L::moment, kilo},
+                        {{"stress_MPa", "vertical stress at a face", "MPa", 3}, &L::stress, units::MPa}},
+                       row.levels, {"peaks of the earthquake alone, either way; sections as beams (plane, linear)."});
 }
+
+} // namespace
 
 nlohmann::ordered_json spectrum_json(const SpectrumLevel& level)
 {
@@ -138,12 +134,12 @@ nlohmann::ordered_json spectrum_json(const SpectrumLevel& level)
                              {"static_overturning_factor", level.static_overturning}};
     j["rows"] = json_of(spectrum_table(level));
     for (std::size_t i = 0; i < level.rows.size(); ++i) {
-        j["rows"][i]["modes"] = json_of(spectrum_mode_table(level, level.rows[i]));
-        j["rows"][i]["heights"] = json_of(spectrum_height_table(level.rows[i]));
+        j["rows"][i]["modes"] = json_of(mode_table(level, level.rows[i], false));
+        j["rows"][i]["heights"] = json_of(height_table(level.rows[i]));
         if (!level.rows[i].vertical_modes.empty())
-            j["rows"][i]["vertical_modes"] = json_of(spectrum_vertical_mode_table(level, level.rows[i]));
+            j["rows"][i]["vertical_modes"] = json_of(mode_table(level, level.rows[i], true));
     }
-    if (level.vertical_mass > 0.0) j["components"] = json_of(spectrum_component_table(level));
+    if (level.vertical_mass > 0.0) j["components"] = json_of(component_table(level));
     j["notes"] = level.notes;
     return j;
 }
@@ -151,24 +147,24 @@ nlohmann::ordered_json spectrum_json(const SpectrumLevel& level)
 std::string spectrum_text(const SpectrumLevel& level)
 {
     std::vector<Table> tables{spectrum_table(level)};
-    if (level.vertical_mass > 0.0) tables.push_back(spectrum_component_table(level));
+    if (level.vertical_mass > 0.0) tables.push_back(component_table(level));
     for (std::size_t i = 0; i < level.rows.size() && i < detailed_spectra; ++i) {
-        tables.push_back(spectrum_mode_table(level, level.rows[i]));
-        tables.push_back(spectrum_height_table(level.rows[i]));
+        tables.push_back(mode_table(level, level.rows[i], false));
+        tables.push_back(height_table(level.rows[i]));
     }
     return texts(tables);
 }
 
 Section spectrum_section(const SpectrumLevel& level)
 {
-    Section section{"Response spectrum", {}, Fold::open};
+    Section section{"Response spectrum"};
     section.parts.push_back(rows_part(spectrum_table(level)));
-    if (level.vertical_mass > 0.0) section.parts.push_back(rows_part(spectrum_component_table(level)));
+    if (level.vertical_mass > 0.0) section.parts.push_back(rows_part(component_table(level)));
     for (const SpectrumDemand& row : level.rows) {
-        section.parts.push_back(TablePart{spectrum_mode_table(level, row), Layout::rows, 1, Fold::folded});
-        section.parts.push_back(TablePart{spectrum_height_table(row), Layout::rows, 1, Fold::folded});
+        section.parts.push_back(TablePart{mode_table(level, row, false), Layout::rows, 1, Fold::folded});
+        section.parts.push_back(TablePart{height_table(row), Layout::rows, 1, Fold::folded});
         if (!row.vertical_modes.empty())
-            section.parts.push_back(TablePart{spectrum_vertical_mode_table(level, row), Layout::rows, 1, Fold::folded});
+            section.parts.push_back(TablePart{mode_table(level, row, true), Layout::rows, 1, Fold::folded});
     }
     return section;
 }

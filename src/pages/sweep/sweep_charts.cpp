@@ -51,20 +51,20 @@ enum class Band { none, least_to_largest };
 Curve slip_curve(const SweepView& view, std::size_t variant, const std::string& method, const std::string& name,
                  Band band)
 {
-    Curve curve{name, view.frictions, {}, {}, {}, Mark::line_and_points, Weight::normal, -1};
+    Curve curve{.name = name, .mark = Mark::line_and_points};
     for (const double friction : view.frictions) {
         const std::vector<double> slips = slips_of(view, variant, method, friction);
-        curve.y.push_back(slips.empty() ? nothing : percentile(slips, many_records(view) ? 0.5 : 1.0));
+        curve.add(friction, slips.empty() ? nothing : percentile(slips, many_records(view) ? 0.5 : 1.0));
         if (band == Band::none) continue;
-        curve.low.push_back(slips.empty() ? nothing : *std::min_element(slips.begin(), slips.end()));
-        curve.high.push_back(slips.empty() ? nothing : *std::max_element(slips.begin(), slips.end()));
+        curve.low.push_back(slips.empty() ? nothing : std::ranges::min(slips));
+        curve.high.push_back(slips.empty() ? nothing : std::ranges::max(slips));
     }
     return curve;
 }
 
 bool has_value(const Curve& curve)
 {
-    return std::any_of(curve.y.begin(), curve.y.end(), [](double v) { return std::isfinite(v); });
+    return std::ranges::any_of(curve.y, [](double v) { return std::isfinite(v); });
 }
 
 /// Critical friction of a variant; that of FE runs and of the block is the same but for round-off, as statics alone decide.
@@ -77,10 +77,7 @@ std::optional<double> critical_of(const SweepView& view, std::size_t variant)
 
 Chart empty_chart(const SweepView& view, const std::string& title, const std::optional<double>& allowable)
 {
-    Chart chart;
-    chart.title = title;
-    chart.x = {"friction μ", ""};
-    chart.y = slip_axis("largest slip");
+    Chart chart{title, {"friction μ"}, slip_axis("largest slip")};
     if (view.records.size() > 1)
         chart.note = many_records(view) ? fmt::format("Median of {} records.", view.records.size())
                                         : fmt::format("The largest of {} records.", view.records.size());
@@ -116,16 +113,15 @@ std::string with_name(const std::string& title, const std::string& name)
 /// Points in ascending order of x, thinned evenly to a share of what a scatter chart may hold.
 Curve points(const std::string& name, std::vector<std::pair<double, double>> values, std::size_t curves)
 {
-    std::sort(values.begin(), values.end());
+    std::ranges::sort(values);
     const std::size_t largest = std::max<std::size_t>(200, drawn_points / std::max<std::size_t>(1, curves)),
                       every = (values.size() + largest - 1) / std::max<std::size_t>(1, largest);
-    Curve curve{name, {}, {}, {}, {}, Mark::points, Weight::normal, -1};
+    Curve curve{.name = name, .mark = Mark::points};
     for (std::size_t i = 0; i < values.size(); i += std::max<std::size_t>(1, every)) {
         // Abscissae of a curve are distinct: a value at the same place moves by an invisible amount.
-        double x = values[i].first;
-        if (!curve.x.empty() && x <= curve.x.back()) x = std::nextafter(curve.x.back(), 1e300);
-        curve.x.push_back(x);
-        curve.y.push_back(values[i].second);
+        const double x = values[i].first;
+        const bool taken = !curve.x.empty() && x <= curve.x.back();
+        curve.add(taken ? std::nextafter(curve.x.back(), 1e300) : x, values[i].second);
     }
     return curve;
 }
@@ -134,24 +130,19 @@ Curve points(const std::string& name, std::vector<std::pair<double, double>> val
 
 Curve history_curve(const std::string& name, const SlipHistory& history)
 {
-    Curve curve{name, {}, {}, {}, {}, Mark::line, Weight::normal, -1};
-    for (std::size_t k = 0; k < history.slip.size(); ++k) {
-        curve.x.push_back(static_cast<double>(k) * history.interval);
-        curve.y.push_back(history.slip[k] / mm);
-    }
+    Curve curve{name};
+    for (std::size_t k = 0; k < history.slip.size(); ++k)
+        curve.add(static_cast<double>(k) * history.interval, history.slip[k] / mm);
     return curve;
 }
 
 std::string main_method(const SweepView& view)
 {
-    const auto given = [&](const std::string& method) {
-        return std::find(view.methods.begin(), view.methods.end(), method) != view.methods.end();
-    };
-    if (given("fe")) return "fe";
-    const auto fe = std::find_if(view.methods.begin(), view.methods.end(),
-                                 [](const std::string& method) { return method.rfind("fe", 0) == 0; });
-    if (fe != view.methods.end()) return *fe;
-    return given("rigid-v") ? "rigid-v" : view.methods.front();
+    const auto find = [&](auto&& wanted) { return std::ranges::find_if(view.methods, wanted); };
+    for (const auto& at : {find([](const std::string& method) { return method == "fe"; }), find(is_of_elements),
+                           find([](const std::string& method) { return method == "rigid-v"; })})
+        if (at != view.methods.end()) return *at;
+    return view.methods.front();
 }
 
 Chart slip_over_friction(const SweepView& view, std::size_t variant, const std::optional<double>& allowable)
@@ -161,7 +152,7 @@ Chart slip_over_friction(const SweepView& view, std::size_t variant, const std::
     for (const std::string& method : view.methods) {
         Curve curve = slip_curve(view, variant, method, method, method == banded ? Band::least_to_largest : Band::none);
         if (!has_value(curve)) continue;
-        if (method.rfind("fe", 0) == 0) curve.weight = Weight::strong;
+        if (is_of_elements(method)) curve.weight = Weight::strong;
         chart.curves.push_back(std::move(curve));
     }
     if (!banded.empty()) chart.note += " Band of " + banded + ": from the least to the largest.";
@@ -181,17 +172,14 @@ std::optional<Chart> slip_histories(const SweepView& view, std::size_t variant, 
         if (view.rows[first].slip && histories[first].interval > 0.0) rows.push_back(first);
     }
     if (rows.empty()) return std::nullopt;
-    Chart chart;
     const SweepRow& any = view.rows[rows.front()];
-    chart.title = with_name("Slip over time by " + method, view.variant_names[variant]);
-    chart.x = {"time", "s"};
-    chart.y = {"slip", "mm", Scale::asinh, 1.0};
+    Chart chart = time_chart(with_name("Slip over time by " + method, view.variant_names[variant]),
+                             {"slip", "mm", Scale::asinh, 1.0});
     chart.note = fmt::format("Record {}{}.", any.record, any.polarity < 0 ? ", polarity -1" : "");
     const std::size_t every = (rows.size() + named_variants - 1) / named_variants;
-    for (std::size_t i = 0; i < rows.size(); i += every) {
-        Curve curve = history_curve(fmt::format("μ = {:.4g}", view.rows[rows[i]].friction), histories[rows[i]]);
-        chart.curves.push_back(std::move(curve));
-    }
+    for (std::size_t i = 0; i < rows.size(); i += every)
+        chart.curves.push_back(
+            history_curve(fmt::format("μ = {:.4g}", view.rows[rows[i]].friction), histories[rows[i]]));
     return chart;
 }
 
@@ -211,10 +199,7 @@ Chart slip_by_variant(const SweepView& view, const std::string& method, const st
 
 Chart slip_over_yield_ratio(const SweepView& view)
 {
-    Chart chart;
-    chart.title = "Slip over a_y/PGA";
-    chart.x = {"yield acceleration over PGA, a_y/PGA", ""};
-    chart.y = slip_axis("largest slip");
+    Chart chart{"Slip over a_y/PGA", {"yield acceleration over PGA, a_y/PGA"}, slip_axis("largest slip")};
     chart.note = "a_y: of the rigid block, the same for all methods. Each point is a row.";
     for (const std::string& method : view.methods) {
         std::vector<std::pair<double, double>> values;
@@ -228,18 +213,15 @@ Chart slip_over_yield_ratio(const SweepView& view)
 
 std::optional<Chart> fe_over_rigid(const SweepView& view)
 {
-    if (std::none_of(view.rows.begin(), view.rows.end(), [](const SweepRow& r) { return r.finite_elements(); }))
-        return std::nullopt;
+    if (!view.finite_elements()) return std::nullopt;
     using Key = std::tuple<std::size_t, double, int, std::string_view>;
     std::map<Key, double> rigid;
     const auto key = [](const SweepRow& r) { return Key{r.variant, r.friction, r.polarity, r.record}; };
     for (const std::string method : {"rigid", "rigid-v"}) // the latter, where there is one, has the same motion as FE
         for (const SweepRow& r : view.rows)
             if (r.method == method && r.slip) rigid[key(r)] = std::abs(*r.slip) / mm;
-    Chart chart;
-    chart.title = "Slip by finite elements over the rigid block's";
-    chart.x = slip_axis("slip of the rigid block");
-    chart.y = slip_axis("slip by finite elements");
+    Chart chart{"Slip by finite elements over the rigid block's", slip_axis("slip of the rigid block"),
+                slip_axis("slip by finite elements")};
     double largest = 0.0;
     for (const std::string& method : view.methods) {
         std::vector<std::pair<double, double>> values;
@@ -252,11 +234,10 @@ std::optional<Chart> fe_over_rigid(const SweepView& view)
         if (!values.empty()) chart.curves.push_back(points(method, std::move(values), view.methods.size()));
     }
     if (chart.curves.empty()) return std::nullopt;
-    Curve equal{"equal", {}, {}, {}, {}, Mark::dashed, Weight::normal, 7};
+    Curve equal{.name = "equal", .mark = Mark::dashed, .colour = 7};
     for (int i = 0; i <= 40; ++i) { // straight on equal asinh scales
         const double v = 0.1 * std::sinh(std::asinh(std::max(largest, 1.0) / 0.1) * i / 40.0);
-        equal.x.push_back(v);
-        equal.y.push_back(v);
+        equal.add(v, v);
     }
     chart.curves.push_back(std::move(equal));
     chart.note = "Each point is a motion with a friction. Above the dashed line the flexible dam slides farther.";
@@ -265,31 +246,18 @@ std::optional<Chart> fe_over_rigid(const SweepView& view)
 
 Chart yield_over_friction(const SweepView& view)
 {
-    Chart chart;
-    chart.title = "Yield acceleration over friction";
-    chart.x = {"friction μ", ""};
-    chart.y = {"yield acceleration a_y", "m/s²"};
+    Chart chart{"Yield acceleration over friction", {"friction μ"}, {"yield acceleration a_y", "m/s²"}};
     chart.horizontal.push_back({0.0, "slides statically below"});
     for (std::size_t v = 0; v < view.variants.size() && chart.curves.size() < named_variants; ++v) {
-        Curve curve{view.variant_names[v].empty() ? "a_y" : view.variant_names[v],
-                    {},
-                    {},
-                    {},
-                    {},
-                    Mark::line_and_points,
-                    Weight::normal,
-                    -1};
+        Curve curve{.name = view.variant_names[v].empty() ? "a_y" : view.variant_names[v],
+                    .mark = Mark::line_and_points};
         std::map<double, double> yield;
         for (const SweepRow& r : view.rows)
             if (r.variant == v) yield[r.friction] = r.yield_acceleration;
-        for (const auto& [friction, a_y] : yield) {
-            curve.x.push_back(friction);
-            curve.y.push_back(a_y);
-        }
+        for (const auto& [friction, a_y] : yield) curve.add(friction, a_y);
         // Variants of the motion only have the same yield acceleration.
-        const bool new_one =
-            std::none_of(chart.curves.begin(), chart.curves.end(), [&](const Curve& c) { return c.y == curve.y; });
-        if (new_one) chart.curves.push_back(std::move(curve));
+        if (std::ranges::find(chart.curves, curve.y, &Curve::y) == chart.curves.end())
+            chart.curves.push_back(std::move(curve));
     }
     return chart;
 }
@@ -378,15 +346,15 @@ Table needed_friction_table(const SweepView& view, const std::optional<double>& 
     const std::vector<N> list = needed_frictions(view, allowable);
     std::vector<ColumnOf<N>> columns{
         {in_brief({"method", "method"}), &N::method},
-        {in_brief({"friction", "friction", "–", 4}), [](const N& n) { return optional_cell(n.friction()); }},
-        {in_brief({"friction_low", "slips more at", "–", 4}), [](const N& n) { return optional_cell(n.more); }},
-        {in_brief({"friction_high", "holds from", "–", 4}), [](const N& n) { return optional_cell(n.holds); }},
+        {in_brief({"friction", "friction", "–", 4}), [](const N& n) { return n.friction(); }},
+        {in_brief({"friction_low", "slips more at", "–", 4}), &N::more},
+        {in_brief({"friction_high", "holds from", "–", 4}), &N::holds},
         {in_brief({"friction_error", "±", "–", 2}),
          [](const N& n) {
              return n.friction() ? Cell(std::max(*n.friction() - *n.more, *n.holds - *n.friction())) : Cell();
          }},
         {in_brief({"record", "governed by"}), &N::record},
-        {in_brief({"polarity", "polarity"}), [](const N& n) { return n.polarity ? count_cell(*n.polarity) : Cell(); }}};
+        {in_brief({"polarity", "polarity"}), &N::polarity}};
     if (view.variants.size() > 1) columns.insert(columns.begin(), {in_brief({"variant", "variant"}), &N::variant});
     return table_of(
         fmt::format("Friction for a slip of {:.4g} mm at most{}", allowable.value_or(0.0) / units::mm,
@@ -432,7 +400,7 @@ std::vector<RuleLine> rule_lines(const SweepView& view)
     std::vector<RuleLine> lines;
     for (const SweepRow& row : view.rows) {
         const RuleLine line{row, view.variants[row.variant]};
-        const auto same = std::find_if(lines.begin(), lines.end(), [&](const RuleLine& l) { return l.beside(line); });
+        const auto same = std::ranges::find_if(lines, [&](const RuleLine& l) { return l.beside(line); });
         RuleLine& target = same == lines.end() ? lines.emplace_back(line) : *same;
         target.slips[line.variant.opening] = {
             row.slip ? std::optional(std::abs(*row.slip) / mm) : std::nullopt, std::string(row.status)};
@@ -444,17 +412,11 @@ std::vector<RuleLine> rule_lines(const SweepView& view)
 std::vector<ColumnOf<RuleLine>> place_columns(const SweepView& view)
 {
     using L = RuleLine;
-    const auto differs = [&](auto SweepVariant::*member) {
-        return std::any_of(view.variants.begin(), view.variants.end(),
-                           [&](const SweepVariant& v) { return v.*member != view.variants.front().*member; });
-    };
-    const auto of_variant = [](auto SweepVariant::*member) {
-        return [=](const L& l) { return Cell(l.variant.*member); };
-    };
     std::vector<ColumnOf<L>> columns{
         {in_brief({"friction", "μ", "–", 4}), [](const L& l) { return l.row.friction; }}};
     const auto add = [&](Column column, auto SweepVariant::*member) {
-        if (differs(member)) columns.push_back({in_brief(std::move(column)), of_variant(member)});
+        if (differ(view.variants, member))
+            columns.push_back({in_brief(std::move(column)), [=](const L& l) { return l.variant.*member; }});
     };
     add({"level_m", "level", "m", 4}, &SweepVariant::level);
     add({"uplift", "uplift"}, &SweepVariant::uplift);
@@ -464,8 +426,8 @@ std::vector<ColumnOf<RuleLine>> place_columns(const SweepView& view)
     if (view.polarities.size() > 1)
         columns.push_back({in_brief({"polarity", "polarity"}), [](const L& l) { return l.row.polarity; }});
     if (view.records.size() > 1)
-        columns.push_back({in_brief({"record", "record"}), [](const L& l) { return std::string(l.row.record); }});
-    columns.push_back({in_brief({"method", "method"}), [](const L& l) { return std::string(l.row.method); }});
+        columns.push_back({in_brief({"record", "record"}), [](const L& l) { return l.row.record; }});
+    columns.push_back({in_brief({"method", "method"}), [](const L& l) { return l.row.method; }});
     return columns;
 }
 
@@ -475,8 +437,7 @@ std::optional<Table> opening_water_table(const SweepView& view)
 {
     std::vector<std::string> rules;
     for (const SweepVariant& v : view.variants)
-        if (!v.opening.empty() && std::find(rules.begin(), rules.end(), v.opening) == rules.end())
-            rules.push_back(v.opening);
+        if (!v.opening.empty() && std::ranges::find(rules, v.opening) == rules.end()) rules.push_back(v.opening);
     if (rules.size() < 2) return std::nullopt;
     std::vector<ColumnOf<RuleLine>> columns = place_columns(view);
     for (const std::string& rule : rules)
@@ -491,14 +452,6 @@ std::optional<Table> opening_water_table(const SweepView& view)
                     {"largest slip on the way under each rule of uplift.opening; apart: the largest less the smallest. "
                      "Rigid block: reynolds is taken as unchanged, for a block has no width of the joint; mouth is its "
                      "rule for water that needs time."});
-}
-
-std::optional<Section> opening_water_section(const SweepView& view)
-{
-    std::optional<Table> table = opening_water_table(view);
-    if (!table) return std::nullopt;
-    return Section{
-        "Water in the opening base", {TablePart{std::move(*table), Layout::rows, 1, Fold::open}}, Fold::open};
 }
 
 } // namespace damslip::pages

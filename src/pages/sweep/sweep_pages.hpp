@@ -9,11 +9,11 @@
 #include "pages/report/answer.hpp"
 #include "pages/report/page.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
 #include <span>
@@ -36,6 +36,20 @@ struct SweepVariant {
     friend auto operator<=>(const SweepVariant&, const SweepVariant&) = default;
 };
 
+/// Do some of the variants differ in this member?
+template <class Value>
+bool differ(const std::vector<SweepVariant>& variants, Value SweepVariant::*member)
+{
+    return std::ranges::any_of(
+        variants, [&](const Value& value) { return value != variants.front().*member; }, member);
+}
+
+/// Is the method one of finite elements?
+inline bool is_of_elements(std::string_view method)
+{
+    return method.starts_with("fe");
+}
+
 struct SweepRow {
     std::int64_t id = 0;
     std::size_t variant = 0; ///< of SweepView::variants
@@ -46,13 +60,12 @@ struct SweepRow {
     double pga = 0.0;                ///< [m/s²]
     std::optional<double> slip;      ///< of answers: largest on the way, else the final one [m]
     std::optional<double> error;     ///< of an FE slip by its steps [m]
-    std::optional<double> low, high; ///< band of a regression [m]
     std::optional<double> critical_friction;
     std::string_view status;     ///< as printed
     std::optional<Status> state; ///< the same of the list; none: a remark of a method that does not apply
     bool error_known = true;     ///< false: an FE slip without an estimate of what the step leaves open
 
-    bool finite_elements() const { return method.starts_with("fe"); }
+    bool finite_elements() const { return is_of_elements(method); }
     bool rigid() const { return method.starts_with("rigid"); }
     bool fails_statically() const { return state && damslip::fails_statically(*state); }
     bool unanswered() const { return state && !is_answer(*state); }
@@ -63,7 +76,9 @@ class UnansweredRows {
 public:
     /// @param state  of SweepRow
     void add(std::int64_t id, const std::optional<Status>& state);
-    std::string words() const; ///< as unanswered_words()
+    /// "3 rows have no answer: 2 not resolved (rows 4, 7), 1 tolerance missed (row 9)"; empty where all have one. Of many
+    /// only the first are named.
+    std::string words() const;
 
 private:
     struct Rows {
@@ -93,6 +108,7 @@ struct SweepView {
     std::size_t left_out = 0;                 ///< other rows
     std::optional<SweepRow> largest_left_out; ///< of them, by |slip|
     std::size_t all() const { return rows.size() + left_out; }
+    bool finite_elements() const { return std::ranges::any_of(rows, &SweepRow::finite_elements); }
 
     using Words = std::set<std::string, std::less<>>;
     std::shared_ptr<const Words> words; ///< that the rows look at
@@ -147,10 +163,6 @@ private:
 
 /// Of all rows. @param ids  ascending
 SweepView sweep_view(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome);
-
-/// Rows without an answer, how many and which: "3 rows have no answer: 2 not resolved (rows 4, 7), 1 tolerance missed (row 9)";
-/// empty where all have one. Of many only the first are named.
-std::string unanswered_words(const SweepView& view);
 
 /// How many FE slips have no error estimate, and why; empty where all have one.
 std::string unknown_error_words(const SweepView& view);
@@ -210,7 +222,6 @@ Table needed_friction_table(const SweepView& view, const std::optional<double>& 
 /// What the rules for water in the opening base are worth: largest slips on the way under each rule side by side, and how
 /// far they are apart. None where the rows of a sweep have fewer than two rules.
 std::optional<Table> opening_water_table(const SweepView& view);
-std::optional<Section> opening_water_section(const SweepView& view);
 
 /// A sweep as the report that is handed in.
 
@@ -229,9 +240,6 @@ struct SweepReportInput {
 inline constexpr std::size_t listed_rows = 400; ///< that the report prints
 
 Page sweep_page(const SweepReportInput& input);
-
-/// The page as one HTML file.
-std::string sweep_report(const SweepReportInput& input);
 
 /// The full text is what stands beside the rows. @pre input.scene
 Answer sweep_answer(const SweepReportInput& input);

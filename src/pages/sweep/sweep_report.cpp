@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -25,13 +26,6 @@ namespace {
 
 using units::mm;
 constexpr std::size_t drawn_variants = 12, open_variants = 3; ///< with a chart of their own; of these unfolded
-
-std::string join(const std::vector<std::string>& words)
-{
-    std::string out;
-    for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
-    return out;
-}
 
 /// Rows of one method: how many have a slip, failed statically, or have no answer.
 struct MethodRows {
@@ -61,7 +55,7 @@ MethodRows rows_of(const SweepView& view, const std::string& method, const std::
         m.above_allowable += allowable && std::abs(*r.slip) > *allowable;
         m.slips.push_back(std::abs(*r.slip) / mm);
     }
-    std::sort(m.slips.begin(), m.slips.end());
+    std::ranges::sort(m.slips);
     return m;
 }
 
@@ -70,17 +64,16 @@ Table method_table(const SweepView& view, const std::optional<double>& allowable
     using M = MethodRows;
     std::vector<M> rows;
     for (const std::string& method : view.methods) rows.push_back(rows_of(view, method, allowable));
-    std::vector<ColumnOf<M>> columns{
-        {{"method", "method"}, &M::method},
-        {{"rows", "rows"}, &M::rows},
-        {{"with_slip", "with a slip"}, [](const M& m) { return count_cell(m.slips.size()); }},
-        {{"static_failures", "slide statically"}, &M::static_failures},
-        {{"unanswered", "no answer"}, &M::unanswered},
-        {{"median_mm", "median", "mm", 4}, &M::median},
-        {{"largest_mm", "largest", "mm", 4},
-         [](const M& m) { return m.slips.empty() ? Cell() : Cell(m.slips.back()); }},
-        {{"without_slip", "without a slip"},
-         [](const M& m) { return m.without.empty() ? Cell() : Cell(m.without.words()); }}};
+    std::vector<ColumnOf<M>> columns{{{"method", "method"}, &M::method},
+                                     {{"rows", "rows"}, &M::rows},
+                                     {{"with_slip", "with a slip"}, [](const M& m) { return m.slips.size(); }},
+                                     {{"static_failures", "slide statically"}, &M::static_failures},
+                                     {{"unanswered", "no answer"}, &M::unanswered},
+                                     {{"median_mm", "median", "mm", 4}, &M::median},
+                                     {{"largest_mm", "largest", "mm", 4},
+                                      [](const M& m) { return m.slips.empty() ? Cell() : Cell(m.slips.back()); }},
+                                     {{"without_slip", "without a slip"},
+                                      [](const M& m) { return m.without.empty() ? Cell() : Cell(m.without.words()); }}};
     if (allowable) columns.push_back({{"above_allowable", "above the allowable"}, &M::above_allowable});
     return table_of("Rows by method", columns, rows,
                     {"slips: largest on the way, of rows with an answer; slide statically: there is no equilibrium "
@@ -93,8 +86,8 @@ Table variant_table(const SweepView& view)
     using V = SweepVariant;
     const auto stands_from = [&](const V& v) {
         const auto number = static_cast<std::size_t>(&v - view.variants.data());
-        const auto row = std::find_if(view.rows.begin(), view.rows.end(),
-                                      [&](const SweepRow& r) { return r.variant == number && r.critical_friction; });
+        const auto row = std::ranges::find_if(
+            view.rows, [&](const SweepRow& r) { return r.variant == number && r.critical_friction; });
         return row == view.rows.end() ? Cell() : Cell(*row->critical_friction);
     };
     std::vector<ColumnOf<V>> columns{{{"level_m", "level", "m", 4}, &V::level},
@@ -107,24 +100,20 @@ Table variant_table(const SweepView& view)
         columns.insert(columns.begin() + 2, {{"opening_water", "opening water"}, &V::opening});
     if (!view.variants.empty() && !view.variants.front().plane.empty())
         columns.insert(columns.begin(), {{"plane", "plane"}, &V::plane});
-    const auto any = [&](auto V::*member) {
-        return std::any_of(view.variants.begin(), view.variants.end(),
-                           [=](const V& v) { return (v.*member).has_value(); });
+    const auto add_given = [&](Column column, std::optional<double> V::*member) {
+        if (std::ranges::any_of(
+                view.variants, [](const auto& value) { return value.has_value(); }, member))
+            columns.insert(columns.end() - 2, {std::move(column), member});
     };
-    if (any(&V::damping))
-        columns.insert(columns.end() - 2,
-                       {{"damping", "damping", "–", 4}, [](const V& v) { return optional_cell(v.damping); }});
-    if (any(&V::period))
-        columns.insert(columns.end() - 2,
-                       {{"period_s", "T_s", "s", 4}, [](const V& v) { return optional_cell(v.period); }});
+    add_given({"damping", "damping", "–", 4}, &V::damping);
+    add_given({"period_s", "T_s", "s", 4}, &V::period);
     return table_of("Variants", columns, view.variants);
 }
 
 const SweepRow* worst_of(const SweepView& view)
 {
     const SweepRow* worst = nullptr;
-    const bool fe = std::any_of(view.rows.begin(), view.rows.end(),
-                                [](const SweepRow& r) { return r.finite_elements() && r.slip; });
+    const bool fe = std::ranges::any_of(view.rows, [](const SweepRow& r) { return r.finite_elements() && r.slip; });
     for (const SweepRow& r : view.rows) {
         if (!r.slip || !(fe ? r.finite_elements() : r.rigid())) continue;
         if (!worst || std::abs(*r.slip) > std::abs(*worst->slip)) worst = &r;
@@ -170,7 +159,7 @@ std::string needed_sentence(const SweepView& view, const std::optional<double>& 
 
 Headline headline(const SweepView& view, const std::optional<double>& allowable)
 {
-    const std::string unanswered = unanswered_words(view);
+    const std::string unanswered = view.unanswered.words();
     const SweepRow* worst = worst_of(view);
     std::string sentence =
         needed_sentence(view, allowable) +
@@ -228,14 +217,19 @@ std::vector<std::string> warnings(const SweepView& view)
     return list;
 }
 
+/// A chart of each variant that has a slip, from the first on to the one before `end`.
+void add_variants(const SweepView& view, std::size_t first, std::size_t end, const std::optional<double>& allowable,
+                  Section& section)
+{
+    for (std::size_t v = first; v < std::min(view.variants.size(), end); ++v)
+        if (Chart chart = slip_over_friction(view, v, allowable); !chart.curves.empty())
+            section.parts.emplace_back(std::move(chart));
+}
+
 Section friction_section(const SweepView& view, const std::optional<double>& allowable)
 {
-    Section section{"Slip over friction", {}, Fold::open};
-    const std::size_t n = std::min(view.variants.size(), drawn_variants);
-    for (std::size_t v = 0; v < std::min(n, open_variants); ++v) {
-        Chart chart = slip_over_friction(view, v, allowable);
-        if (!chart.curves.empty()) section.parts.emplace_back(std::move(chart));
-    }
+    Section section{"Slip over friction"};
+    add_variants(view, 0, open_variants, allowable, section);
     if (section.parts.empty())
         section.parts.push_back(Paragraph{"No row of the first variants has a slip: see the critical frictions."});
     return section;
@@ -246,10 +240,7 @@ std::optional<Section> further_variants(const SweepView& view, const std::option
 {
     if (view.variants.size() <= open_variants) return std::nullopt;
     Section section{"Slip over friction, further variants", {}, Fold::folded};
-    for (std::size_t v = open_variants; v < std::min(view.variants.size(), drawn_variants); ++v) {
-        Chart chart = slip_over_friction(view, v, allowable);
-        if (!chart.curves.empty()) section.parts.emplace_back(std::move(chart));
-    }
+    add_variants(view, open_variants, drawn_variants, allowable, section);
     if (view.variants.size() > drawn_variants)
         section.parts.push_back(Paragraph{
             fmt::format("{} further variants are in the table of rows only.", view.variants.size() - drawn_variants)});
@@ -260,11 +251,11 @@ std::optional<Section> further_variants(const SweepView& view, const std::option
 std::optional<Section> history_section(const SweepView& view, const std::vector<SlipHistory>& histories)
 {
     if (histories.size() != view.rows.size()) return std::nullopt;
-    Section section{"Slip over time", {}, Fold::open};
+    Section section{"Slip over time"};
     std::vector<std::string> methods{main_method(view)};
-    if (methods.front().rfind("rigid", 0) != 0)
+    if (!methods.front().starts_with("rigid"))
         for (const char* rigid : {"rigid-v", "rigid"})
-            if (methods.size() == 1 && std::find(view.methods.begin(), view.methods.end(), rigid) != view.methods.end())
+            if (methods.size() == 1 && std::ranges::find(view.methods, rigid) != view.methods.end())
                 methods.emplace_back(rigid);
     for (std::size_t v = 0; v < std::min(view.variants.size(), open_variants); ++v)
         for (const std::string& method : methods)
@@ -280,11 +271,10 @@ Section variant_section(const SweepView& view, const std::optional<double>& allo
         {rows_part(variant_table(view),
                    {"Level: water above the heel; size: factor on all lengths of the scene; motion ×: "
                     "factor on the records; needs statically μ ≥: friction that just holds the dam without an "
-                    "earthquake."})},
-        Fold::open};
+                    "earthquake."})}};
     if (view.variants.size() > 1)
         for (const std::string& method : view.methods) {
-            if (method.rfind("fe", 0) != 0 && method != "rigid" && method != "rigid-v") continue;
+            if (!is_of_elements(method) && method != "rigid" && method != "rigid-v") continue;
             Chart chart = slip_by_variant(view, method, allowable);
             if (chart.curves.size() > 1) section.parts.emplace_back(std::move(chart));
         }
@@ -299,7 +289,7 @@ Table without_empty_columns(Table table)
         const auto empty = [j](const std::vector<Cell>& row) {
             return std::holds_alternative<std::monostate>(row[j]) || row[j] == Cell(std::string());
         };
-        if (!std::all_of(table.rows.begin(), table.rows.end(), empty)) continue;
+        if (!std::ranges::all_of(table.rows, empty)) continue;
         table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(j));
         for (std::vector<Cell>& row : table.rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(j));
     }
@@ -326,44 +316,32 @@ Section rows_section(const SweepReportInput& in, std::size_t all)
             Fold::folded};
 }
 
-bool finite_elements(const SweepView& view)
+Method method_of(const SweepView& view)
 {
-    return std::any_of(view.rows.begin(), view.rows.end(), [](const SweepRow& r) { return r.finite_elements(); });
-}
-
-EffectPlan effect_plan(const Scene& scene, const SweepView& view)
-{
-    return make_effect_plan(scene, finite_elements(view) ? Method::finite_elements : Method::rigid_block);
+    return view.finite_elements() ? Method::finite_elements : Method::rigid_block;
 }
 
 /// The scene as given, before the axes change it; with the mesh where there are FE rows.
 Section section_of(const Scene& given, const SweepView& view)
 {
-    const Scene scene = called_for(effect_plan(given, view), given);
+    const Scene scene = called_for(make_effect_plan(given, method_of(view)), given);
     if (scene.wedge) {
         const RigidWedge wedge = make_rigid_wedge(scene);
-        Section section{"Wedge", {}, Fold::open};
+        Section section{"Wedge"};
         if (auto drawing = wedge_drawing(scene, wedge)) section.parts.emplace_back(std::move(*drawing));
         section.parts.emplace_back(stereonet(scene, wedge));
         return section;
     }
     const PressureProfile uplift = SeepageSource().uplift_of(scene);
     std::vector<Polyline> mesh;
-    if (finite_elements(view)) mesh = dam_mesh_lines(fe2d::build_model(scene, {}).mesh);
-    return {"Section", {section_drawing(scene, uplift, mesh)}, Fold::open};
-}
-
-Section record_section(const Scene& scene, const std::vector<RecordPair>& records)
-{
-    std::vector<GroundMotion> motions;
-    for (const RecordPair& pair : records) motions.push_back(ground_motion(scene, pair));
-    return {"Records", {record_part(record_table(motions)), spectra(motions, 1)}, Fold::open};
+    if (view.finite_elements()) mesh = dam_mesh_lines(fe2d::build_model(scene, {}).mesh);
+    return {"Section", {section_drawing(scene, uplift, mesh)}};
 }
 
 std::vector<std::pair<std::string, std::string>> provenance(const SweepReportInput& in, const SweepView& view)
 {
-    std::vector<std::pair<std::string, std::string>> list{{"program", "damslip " + program_version()},
-                                                          {"methods", join(view.methods)}};
+    std::vector<std::pair<std::string, std::string>> list{
+        {"program", "damslip " + program_version()}, {"methods", fmt::format("{}", fmt::join(view.methods, ", "))}};
     if (in.scene) {
         list.emplace_back("scene", in.scene->file.string());
         list.emplace_back("scene hash", scene_hash(*in.scene));
@@ -373,16 +351,12 @@ std::vector<std::pair<std::string, std::string>> provenance(const SweepReportInp
     return list;
 }
 
-} // namespace
-
-namespace {
-
 /// What is to be known beside the rows.
 std::vector<std::string> all_warnings(const SweepReportInput& in, const SweepView& view)
 {
     std::vector<std::string> list;
     if (in.scene) {
-        if (const std::optional<std::string> rigid_base = base_note(*in.scene); rigid_base && finite_elements(view))
+        if (const std::optional<std::string> rigid_base = base_note(*in.scene); rigid_base && view.finite_elements())
             list.push_back(*rigid_base + ".");
         for (std::string& note : note_texts(in.scene->notes)) list.push_back(std::move(note));
     }
@@ -434,7 +408,8 @@ Answer sweep_answer(const SweepReportInput& in)
         answer.add("opening_water", std::move(*rules), {.brief = true});
     answer += in.closing;
     for (const std::string& note : all_warnings(in, view)) answer.note_in_brief(note);
-    if (!finite_elements(view)) answer.next(fmt::format("damslip sweep {} --method rigid,fe", in.scene->file.string()));
+    if (!view.finite_elements())
+        answer.next(fmt::format("damslip sweep {} --method rigid,fe", in.scene->file.string()));
     return answer;
 }
 
@@ -466,13 +441,14 @@ Page sweep_page(const SweepReportInput& in)
     if (view.rows.empty()) return page;
 
     if (Table table = needed_friction_table(view, allowable); !table.rows.empty())
-        page.sections.push_back({"Friction needed", {rows_part(std::move(table))}, Fold::open});
+        page.sections.push_back({"Friction needed", {rows_part(std::move(table))}});
     page.sections.push_back(friction_section(view, allowable));
     if (auto more = further_variants(view, allowable)) page.sections.push_back(std::move(*more));
     if (auto histories = history_section(view, in.histories)) page.sections.push_back(std::move(*histories));
     page.sections.push_back(variant_section(view, allowable));
-    if (auto rules = opening_water_section(view)) page.sections.push_back(std::move(*rules));
-    Section methods{"Methods", {rows_part(method_table(view, allowable))}, Fold::open};
+    if (std::optional<Table> rules = opening_water_table(view))
+        page.sections.push_back({"Water in the opening base", {rows_part(std::move(*rules))}});
+    Section methods{"Methods", {rows_part(method_table(view, allowable))}};
     if (auto chart = fe_over_rigid(view)) methods.parts.emplace_back(std::move(*chart));
     if (Chart chart = slip_over_yield_ratio(view); !chart.curves.empty()) methods.parts.emplace_back(std::move(chart));
     if (in.fe)
@@ -482,19 +458,15 @@ Page sweep_page(const SweepReportInput& in)
     page.sections.push_back(rows_section(in, view.all()));
     if (in.scene) {
         page.sections.push_back(section_of(*in.scene, view));
-        if (!in.records.empty()) page.sections.push_back(record_section(*in.scene, in.records));
+        std::vector<GroundMotion> motions;
+        for (const RecordPair& pair : in.records) motions.push_back(ground_motion(*in.scene, pair));
+        if (!motions.empty()) page.sections.push_back(records_section(motions, 1));
+        page.sections.push_back(limits_section(*in.scene, method_of(view)));
         page.sections.push_back(
-            limits_section(*in.scene, finite_elements(view) ? Method::finite_elements : Method::rigid_block));
-        page.sections.push_back(
-            {"Scene", {effect_part(effect_plan(*in.scene, view)), scene_listing(*in.scene)}, Fold::open});
+            {"Scene", {effect_part(make_effect_plan(*in.scene, method_of(view))), scene_listing(*in.scene)}});
     }
     page.provenance = provenance(in, view);
     return page;
-}
-
-std::string sweep_report(const SweepReportInput& in)
-{
-    return page_html(sweep_page(in));
 }
 
 } // namespace damslip::pages

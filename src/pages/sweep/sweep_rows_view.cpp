@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <numeric>
 
 namespace damslip::pages {
@@ -14,10 +15,7 @@ namespace {
 
 std::vector<std::string> names_of(const std::vector<SweepVariant>& variants)
 {
-    const auto differs = [&](auto SweepVariant::*member) {
-        return std::any_of(variants.begin(), variants.end(),
-                           [&](const SweepVariant& v) { return v.*member != variants.front().*member; });
-    };
+    const auto differs = [&](auto SweepVariant::*member) { return differ(variants, member); };
     std::vector<std::string> names;
     for (const SweepVariant& v : variants) {
         std::vector<std::string> parts;
@@ -30,9 +28,7 @@ std::vector<std::string> names_of(const std::vector<SweepVariant>& variants)
         if (differs(&SweepVariant::period)) parts.push_back(fmt::format("T_s {:g} s", v.period.value_or(0.0)));
         if (differs(&SweepVariant::damping)) parts.push_back(fmt::format("damping {:g}", v.damping.value_or(0.0)));
         if (differs(&SweepVariant::scale)) parts.push_back(fmt::format("motion × {:g}", v.scale));
-        std::string name;
-        for (const std::string& part : parts) name += (name.empty() ? "" : ", ") + part;
-        names.push_back(std::move(name));
+        names.push_back(fmt::format("{}", fmt::join(parts, ", ")));
     }
     return names;
 }
@@ -53,16 +49,15 @@ std::string_view SweepViewMaker::kept(std::string_view word)
 /// The word, which the list then has.
 std::string_view SweepViewMaker::listed(const std::string& word, std::vector<std::string>& list)
 {
-    if (std::find(list.begin(), list.end(), word) == list.end()) list.push_back(word);
+    if (std::ranges::find(list, word) == list.end()) list.push_back(word);
     return kept(word);
 }
 
 std::size_t SweepViewMaker::number_of(const SweepVariant& variant)
 {
-    const auto at = std::find(view_.variants.begin(), view_.variants.end(), variant);
-    if (at == view_.variants.end()) view_.variants.push_back(variant);
-    return static_cast<std::size_t>(std::find(view_.variants.begin(), view_.variants.end(), variant) -
-                                    view_.variants.begin());
+    const auto number = static_cast<std::size_t>(std::ranges::find(view_.variants, variant) - view_.variants.begin());
+    if (number == view_.variants.size()) view_.variants.push_back(variant);
+    return number;
 }
 
 std::size_t SweepViewMaker::variant_of(const SweepLine& l)
@@ -106,8 +101,6 @@ SweepRow SweepViewMaker::row_of(const SweepLine& l)
                  .pga = l.grid.pga(l.id),
                  .slip = found.max_slip ? found.max_slip : found.slip,
                  .error = found.slip_error,
-                 .low = found.slip_low,
-                 .high = found.slip_high,
                  .critical_friction = found.critical_friction,
                  .status = last_status_,
                  .state = last_state_,
@@ -121,8 +114,8 @@ void SweepViewMaker::complete(SweepRow& row)
 {
     if (row.unanswered()) row.slip.reset();
     // Nor has a regression outside its data one to draw or to take medians of; the file has it.
-    if (row.status == sliding::outside_its_range) row.slip.reset(), row.low.reset(), row.high.reset();
-    if (std::find(view_.polarities.begin(), view_.polarities.end(), row.polarity) == view_.polarities.end())
+    if (row.status == sliding::outside_its_range) row.slip.reset();
+    if (std::ranges::find(view_.polarities, row.polarity) == view_.polarities.end())
         view_.polarities.push_back(row.polarity);
     view_.unanswered.add(row.id, row.state);
 }
@@ -167,7 +160,7 @@ void SweepViewMaker::group_rows()
 {
     const std::size_t methods = view_.methods.size(), n = view_.rows.size();
     const auto slot = [&](const SweepRow& r) {
-        const auto at = std::find(view_.methods.begin(), view_.methods.end(), r.method);
+        const auto at = std::ranges::find(view_.methods, r.method);
         return r.variant * methods + static_cast<std::size_t>(at - view_.methods.begin());
     };
     std::vector<std::size_t>& begin = view_.group_begin;
@@ -205,7 +198,7 @@ SweepView sweep_view(const Grid& grid, const std::vector<std::size_t>& ids, cons
 
 std::span<const std::uint32_t> SweepView::group(std::size_t variant, std::string_view method, double friction) const
 {
-    const auto number = std::find(methods.begin(), methods.end(), method);
+    const auto number = std::ranges::find(methods, method);
     if (number == methods.end()) return {};
     const std::size_t slot = variant * methods.size() + static_cast<std::size_t>(number - methods.begin());
     const std::span all = std::span(by_group).subspan(group_begin[slot], group_begin[slot + 1] - group_begin[slot]);
@@ -240,15 +233,9 @@ std::string UnansweredRows::words() const
     return fmt::format("{} {} no answer: {}", all, all == 1 ? "row has" : "rows have", words);
 }
 
-std::string unanswered_words(const SweepView& view)
-{
-    return view.unanswered.words();
-}
-
 std::string unknown_error_words(const SweepView& view)
 {
-    const auto unknown =
-        std::count_if(view.rows.begin(), view.rows.end(), [](const SweepRow& r) { return !r.error_known; });
+    const auto unknown = std::ranges::count_if(view.rows, [](const SweepRow& r) { return !r.error_known; });
     if (unknown == 0) return "";
     return fmt::format(
         "{} {} by finite elements {} no error estimate: sub-steps are fixed (a method of whole steps, or "

@@ -3,7 +3,6 @@
 #include "analysis/prepare/plane_model.hpp"
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/records.hpp"
-#include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
 #include "scene/plausible.hpp"
 
@@ -32,8 +31,35 @@ Cell rock(const Grid& grid, const GridIndex& at)
 const RowAnchor* anchor_of(const SweepLine& l, const std::string& name)
 {
     const std::vector<RowAnchor>& all = l.results.anchors;
-    const auto at = std::find_if(all.begin(), all.end(), [&](const RowAnchor& a) { return a.name == name; });
+    const auto at = std::ranges::find_if(all, [&](const RowAnchor& a) { return a.name == name; });
     return at == all.end() ? nullptr : &*at;
+}
+
+/// Only an axis with several values is an answer.
+Column if_varied(std::size_t values, Column column)
+{
+    return values > 1 ? in_brief(std::move(column)) : column;
+}
+
+/// Of the axes that every method has. @param Item  has a place `at` in the grid
+template <class Item>
+std::vector<ColumnOf<Item>> dam_columns(const Axes& axes)
+{
+    using I = Item;
+    std::vector<ColumnOf<I>> all{
+        {if_varied(axes.friction.size(), {"friction", "μ", "–", 4}),
+         [&](const I& i) { return friction_of(axes, i.at); }},
+        {if_varied(axes.level.size() * axes.size.size(), {"level_m", "level", "m", 4}),
+         [&](const I& i) { return axes.level[i.at.level] * axes.size[i.at.size]; }},
+        {if_varied(axes.uplift.size(), {"uplift", "uplift"}), [&](const I& i) { return axes.uplift[i.at.uplift]; }}};
+    if (has_opening_axis(axes))
+        all.push_back({if_varied(axes.opening.size(), {"opening_water", "opening water"}),
+                       [&](const I& i) { return axes.opening[i.at.opening]; }});
+    all.push_back({if_varied(axes.reservoir.size(), {"reservoir", "reservoir"}),
+                   [&](const I& i) { return axes.reservoir[i.at.reservoir]; }});
+    all.push_back(
+        {if_varied(axes.size.size(), {"size", "size", "–", 4}), [&](const I& i) { return axes.size[i.at.size]; }});
+    return all;
 }
 
 /// Of what the grid has. @param mean  of both polarities, too
@@ -46,29 +72,13 @@ std::vector<ColumnOf<SweepLine>> columns(const Grid& grid, bool mean)
     };
     using R = RowResults;
     const Axes& axes = grid.axes;
-    const auto if_varied = [](std::size_t values, Column column) { // only an axis with several values is an answer
-        return values > 1 ? in_brief(std::move(column)) : column;
-    };
-    std::vector<ColumnOf<L>> all{{{"id", "id"}, [](const L& l) { return count_cell(l.id); }}};
+    std::vector<ColumnOf<L>> all{{{"id", "id"}, &L::id}};
     if (has_plane_axis(axes))
         all.push_back({if_varied(axes.plane.size(), {"plane", "plane"}), [](const L& l) {
                            const std::string& plane = l.axes().plane[l.at.plane];
                            return plane.empty() ? Cell(std::string(base_plane)) : Cell(plane);
                        }});
-    const std::vector<ColumnOf<L>> of_water{
-        {if_varied(axes.friction.size(), {"friction", "μ", "–", 4}),
-         [](const L& l) { return friction_of(l.axes(), l.at); }},
-        {if_varied(axes.level.size() * axes.size.size(), {"level_m", "level", "m", 4}),
-         [](const L& l) { return l.axes().level[l.at.level] * l.axes().size[l.at.size]; }},
-        {if_varied(axes.uplift.size(), {"uplift", "uplift"}), [](const L& l) { return l.axes().uplift[l.at.uplift]; }}};
-    all.insert(all.end(), of_water.begin(), of_water.end());
-    if (has_opening_axis(axes))
-        all.push_back({if_varied(axes.opening.size(), {"opening_water", "opening water"}),
-                       [](const L& l) { return l.axes().opening[l.at.opening]; }});
-    all.push_back({if_varied(axes.reservoir.size(), {"reservoir", "reservoir"}),
-                   [](const L& l) { return l.axes().reservoir[l.at.reservoir]; }});
-    all.push_back({if_varied(axes.size.size(), {"size", "size", "–", 4}),
-                   [](const L& l) { return l.axes().size[l.at.size]; }});
+    for (ColumnOf<L>& column : dam_columns<L>(axes)) all.push_back(std::move(column));
     if (!axes.period.empty())
         all.push_back({{"period_s", "T_s", "s", 4}, [](const L& l) { return l.axes().period[l.at.period]; }});
     if (!axes.damping.empty())
@@ -122,9 +132,7 @@ std::vector<ColumnOf<SweepLine>> columns(const Grid& grid, bool mean)
                            return anchor ? Cell(anchor->state) : Cell();
                        }});
     }
-    if (mean)
-        all.push_back(
-            {{"mean_slip_m", "mean of both polarities", "m", 5}, [](const L& l) { return optional_cell(l.mean); }});
+    if (mean) all.push_back({{"mean_slip_m", "mean of both polarities", "m", 5}, &L::mean});
     return all;
 }
 
@@ -138,13 +146,6 @@ std::optional<double> mean_of_polarities(const Grid& grid, GridIndex at, const S
         sum += *row->results.slip;
     }
     return sum / static_cast<double>(grid.axes.polarity.size());
-}
-
-std::vector<Column> headings(const std::vector<ColumnOf<SweepLine>>& columns)
-{
-    std::vector<Column> list;
-    for (const ColumnOf<SweepLine>& c : columns) list.push_back(c.column);
-    return list;
 }
 
 } // namespace
@@ -178,7 +179,9 @@ Table sweep_table(const Grid& grid, const std::vector<std::size_t>& ids, const S
 
 std::vector<Column> sweep_columns(const Grid& grid, bool mean)
 {
-    return headings(columns(grid, mean));
+    std::vector<Column> list;
+    for (const ColumnOf<SweepLine>& c : columns(grid, mean)) list.push_back(c.column);
+    return list;
 }
 
 Table comparison_table(const Grid& grid, const std::vector<SweepComparison>& compared)
@@ -189,29 +192,23 @@ Table comparison_table(const Grid& grid, const std::vector<SweepComparison>& com
         return [=](const C& c) { return c.motions ? Cell(1e3 * (c.*slip)) : Cell(); };
     };
     const auto error = [](const C& c) { return c.largest_error && c.motions ? Cell(1e3 * *c.largest_error) : Cell(); };
-    std::vector<ColumnOf<C>> all{
-        {{"friction", "μ", "–", 4}, [&](const C& c) { return friction_of(axes, c.at); }},
-        {{"level_m", "level", "m", 4}, [&](const C& c) { return axes.level[c.at.level] * axes.size[c.at.size]; }},
-        {{"uplift", "uplift"}, [&](const C& c) { return axes.uplift[c.at.uplift]; }},
-        {{"reservoir", "reservoir"}, [&](const C& c) { return axes.reservoir[c.at.reservoir]; }},
-        {{"size", "size", "–", 4}, [&](const C& c) { return axes.size[c.at.size]; }},
+    std::vector<ColumnOf<C>> all = dam_columns<C>(axes);
+    const std::vector<ColumnOf<C>> rest{
         {{"scale", "scale", "–", 4}, [&](const C& c) { return axes.scale[c.at.scale]; }},
         {{"method", "method"}, [&](const C& c) { return axes.method[c.at.method].id; }},
         {{"motions", "motions"}, &C::motions},
         {{"static_failures", "static failures"}, &C::static_failures},
-        {{"critical_friction", "critical μ", "–", 6}, [](const C& c) { return optional_cell(c.critical_friction); }},
+        {{"critical_friction", "critical μ", "–", 6}, &C::critical_friction},
         {{"mean_fe_mm", "FE mean", "mm", 5}, in_mm(&C::mean_fe)},
         {{"mean_rigid_mm", "rigid mean", "mm", 5}, in_mm(&C::mean_rigid)},
-        {{"ratio_of_means", "ratio", "–", 4}, [](const C& c) { return optional_cell(c.ratio_of_means); }},
+        {{"ratio_of_means", "ratio", "–", 4}, &C::ratio_of_means},
         {{"largest_fe_mm", "FE largest", "mm", 5}, in_mm(&C::largest_fe)},
         {{"largest_rigid_mm", "rigid largest", "mm", 5}, in_mm(&C::largest_rigid)},
         {{"largest_slip_error_mm", "± step", "mm", 2}, error},
         {{"without_slip", "not compared"},
          [](const C& c) { return c.without.empty() ? Cell() : Cell(c.without.words()); }},
         {{"rock", "rock"}, [&](const C& c) { return rock(grid, c.at); }}};
-    if (has_opening_axis(axes))
-        all.insert(all.begin() + 3,
-                   {{"opening_water", "opening water"}, [&](const C& c) { return axes.opening[c.at.opening]; }});
+    all.insert(all.end(), rest.begin(), rest.end());
     return table_of<C>(
         "Slip by finite elements against the rigid block, " + polarity_words(axes.polarity), all, compared,
         {"both with the vertical component where the record has one; only motions that both methods carried to their "
