@@ -29,6 +29,10 @@
 
 namespace damslip::cli {
 
+using namespace pages;
+
+namespace {
+
 struct AccuracyArguments {
     RunInputs inputs;
     double tolerance = 0.02;      ///< of the deviation from the finest model level [-]
@@ -47,19 +51,6 @@ struct AccuracyArguments {
     std::optional<int> samples; ///< of --probability: runs of the largest estimate; none: 16384, of finite elements 128
     int jobs = 0;               ///< of --probability: threads; 0: all cores
 };
-
-/// Runs the hierarchy of methods on a scene: slip, its error, its cost; names the cheapest model level within the tolerance.
-/// @returns exit_no_answer where no model level is within it, or after an interrupt; what was computed is written all the
-/// same.
-int accuracy(const AccuracyArguments& arguments, const Streams& streams);
-
-/// The half-width of the 95 % interval of P at one level over processor time, by several estimators (interval_cost()).
-/// @returns exit_no_answer where the budget allows no estimate, or after an interrupt
-int accuracy_of_probability(const AccuracyArguments& arguments, const Streams& streams);
-
-using namespace pages;
-
-namespace {
 
 void check(const AccuracyArguments& a)
 {
@@ -115,8 +106,7 @@ Loaded load(const AccuracyArguments& a, const Streams& streams)
                                     "delete sequence, or give the record with  --record FILE"});
     loaded.in_scene = loaded.scene.motion.records.size();
     if (loaded.in_scene == 0)
-        throw InputError(Diagnostic{a.inputs.scene.string(), 0, 0, "the scene has no record.",
-                                    "a [[motion.record]], or --record", "add  --record FILE"});
+        refuse(a.inputs.scene, "the scene has no record.", "a [[motion.record]], or --record", "add  --record FILE");
     if (!a.all_records && a.inputs.records.empty()) loaded.scene.motion.records.resize(1);
     loaded.records = load_records(loaded.scene, Method::finite_elements);
     loaded.seconds = clock.seconds();
@@ -163,9 +153,8 @@ int run_one(const AccuracyArguments& a, const Loaded& loaded, const ModelLevelRu
     const ModelLevel model_level = *parse_model_level(a.model_level);
     const ModelLevelResult result = runner.run(model_level);
     if (result.status == Status::refused)
-        throw InputError(
-            Diagnostic{a.inputs.scene.string(), 0, 0, fmt::format("--model-level {} is refused: {}", a.model_level, result.remark),
-                       "a model level that this scene admits", "leave --model-level out: the table lists those that run"});
+        refuse(a.inputs.scene, fmt::format("--model-level {} is refused: {}", a.model_level, result.remark),
+               "a model level that this scene admits", "leave --model-level out: the table lists those that run");
     const std::vector<MotionName> motions = motion_names(loaded.scene, *loaded.records);
     put_answer(one_model_level_answer(result, motions), "--out DIR", streams);
     if (!a.out.empty()) {
@@ -223,8 +212,63 @@ std::vector<ModelLevelResult> run_aloud(const AccuracyArguments& a, const Loaded
     return results;
 }
 
-} // namespace
+void check_probability_flags(const AccuracyArguments& a)
+{
+    const RunInputs& in = a.inputs;
+    for (const auto& [flag, given] : {std::pair{"--model-level", !a.model_level.empty()},
+                                      {"--quick", a.quick},
+                                      {"--all-records", a.all_records},
+                                      {"--record", !in.records.empty()},
+                                      {"--friction", in.friction.has_value()},
+                                      {"--scale", in.scale.has_value()},
+                                      {"--svg", !a.svg.empty()}})
+        if (given)
+            refuse_usage(fmt::format("--probability together with {}.", flag),
+                         "the scene's own tables [probability], [suite], [intensity], [[limit]]", "leave one out");
+    need_scene_file(in, "--probability");
+}
 
+/// The half-width of the 95 % interval of P at one level over processor time, by several estimators (interval_cost()).
+/// @returns exit_no_answer where the budget allows no estimate, or after an interrupt
+int accuracy_of_probability(const AccuracyArguments& a, const Streams& streams)
+{
+    check_probability_flags(a);
+    const SceneText text = SceneText::read(a.inputs.scene);
+    Scene scene = text.scene();
+    say(scene.notes, a.inputs.strict, streams);
+    FragilityInput input = read_fragility_input(a.inputs.scene);
+    const FragilityStudy study = open_fragility(text, std::move(scene), std::move(input), a.method);
+    const bool finite_elements = study.finite_elements();
+    IntervalCostOptions options;
+    options.method = study.method.id;
+    options.rigid = study.rigid().id;
+    if (a.level) options.level = *a.level * study.input.intensity.level_unit;
+    options.runs = static_cast<std::size_t>(a.samples.value_or(finite_elements ? 128 : 16384));
+    options.sizes = finite_elements ? 3 : 5;
+    options.step = finite_elements ? 2 : 4;
+    options.replicates = finite_elements ? 8 : 16;
+    options.budget = a.budget;
+    options.jobs = a.jobs;
+    TerminalWatch watch(streams);
+    const IntervalCost cost = interval_cost(study.input, study.suite, text, study.written, options, watch);
+    const Answer answer = interval_cost_answer(study, cost);
+    put_answer(answer, "--out DIR", streams);
+    const auto page = [&] { return page_html(interval_cost_page(study, cost)); };
+    if (!a.out.empty()) {
+        answer.write(a.out, {fmt::format("scene {}", study.scene.file.string())});
+        write_file(a.out / "report.html", page());
+        name_report(a.out / "report.html", streams);
+    }
+    if (!a.report.empty()) write_file(a.report, page());
+    if (!a.pdf.empty()) print_pdf(page(), a.pdf);
+    const bool any =
+        std::any_of(cost.points.begin(), cost.points.end(), [](const IntervalPoint& p) { return p.done(); });
+    return any && !watch.stop_asked() ? exit_ok : exit_no_answer;
+}
+
+/// Runs the hierarchy of methods on a scene: slip, its error, its cost; names the cheapest model level within the tolerance.
+/// @returns exit_no_answer where no model level is within it, or after an interrupt; what was computed is written all the
+/// same.
 int accuracy(const AccuracyArguments& a, const Streams& streams)
 {
     check(a);
@@ -269,8 +313,6 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
     return answered && !watch.stop_asked() ? exit_ok : exit_no_answer;
 }
 
-namespace {
-
 void accuracy_flags(CLI::App& sub, AccuracyArguments& a)
 {
     add_run_inputs(sub, a.inputs);
@@ -292,19 +334,17 @@ void accuracy_flags(CLI::App& sub, AccuracyArguments& a)
     sub.add_option("--report", a.report, "the report alone (.html)")->check(output_to(OutputPath::file, "--report"));
     add_pdf(sub, a.pdf);
     const char* const group = "Probability";
-    sub.add_flag(
-           "--probability", a.probability,
-           "half-width of the 95 % interval of P over processor seconds, by plain Monte Carlo, Latin hypercubes and "
-           "Sobol' points; of a scene for fragility, its first limit")
-        ->group(group);
-    sub.add_option("--method", a.method, "as of fragility; default: rigid-v or rigid")->group(group);
+    sub.option_defaults()->group(group);
+    sub.add_flag("--probability", a.probability,
+                 "half-width of the 95 % interval of P over processor seconds, by plain Monte Carlo, Latin hypercubes "
+                 "and Sobol' points; of a scene for fragility, its first limit");
+    sub.add_option("--method", a.method, "as of fragility; default: rigid-v or rigid");
     sub.add_option("--level", a.level, "intensity in the unit of the levels; default: where P is nearest to 0.1")
-        ->check(in_range(1e-9, 1e9))
-        ->group(group);
+        ->check(in_range(1e-9, 1e9));
     sub.add_option("--samples", a.samples, "runs of the largest estimate; default: 16384, of finite elements 128")
-        ->check(CLI::Range(16, 10'000'000))
-        ->group(group);
-    add_jobs(sub, a.jobs)->group(group);
+        ->check(CLI::Range(16, 10'000'000));
+    add_jobs(sub, a.jobs);
+    sub.option_defaults()->group("Options");
     sub.add_option("--svg", a.svg, "the chart alone (.svg)")->check(output_to(OutputPath::file, "--svg"));
 }
 
@@ -315,62 +355,6 @@ Command accuracy_command()
     return {"accuracy", "what accuracy costs: every method on this scene, its error and its seconds",
             "damslip accuracy examples/reference_dam.toml --tolerance 0.02 --out results/accuracy",
             with_flags<AccuracyArguments>(accuracy_flags, accuracy)};
-}
-
-namespace {
-
-void check_probability_flags(const AccuracyArguments& a)
-{
-    const RunInputs& in = a.inputs;
-    for (const auto& [flag, given] : {std::pair{"--model-level", !a.model_level.empty()},
-                                      {"--quick", a.quick},
-                                      {"--all-records", a.all_records},
-                                      {"--record", !in.records.empty()},
-                                      {"--friction", in.friction.has_value()},
-                                      {"--scale", in.scale.has_value()},
-                                      {"--svg", !a.svg.empty()}})
-        if (given)
-            refuse_usage(fmt::format("--probability together with {}.", flag),
-                         "the scene's own tables [probability], [suite], [intensity], [[limit]]", "leave one out");
-    need_scene_file(in, "--probability");
-}
-
-} // namespace
-
-int accuracy_of_probability(const AccuracyArguments& a, const Streams& streams)
-{
-    check_probability_flags(a);
-    const SceneText text = SceneText::read(a.inputs.scene);
-    Scene scene = text.scene();
-    say(scene.notes, a.inputs.strict, streams);
-    FragilityInput input = read_fragility_input(a.inputs.scene);
-    const FragilityStudy study = open_fragility(text, std::move(scene), std::move(input), a.method);
-    const bool finite_elements = study.finite_elements();
-    IntervalCostOptions options;
-    options.method = study.method.id;
-    options.rigid = study.rigid().id;
-    if (a.level) options.level = *a.level * study.input.intensity.level_unit;
-    options.runs = static_cast<std::size_t>(a.samples.value_or(finite_elements ? 128 : 16384));
-    options.sizes = finite_elements ? 3 : 5;
-    options.step = finite_elements ? 2 : 4;
-    options.replicates = finite_elements ? 8 : 16;
-    options.budget = a.budget;
-    options.jobs = a.jobs;
-    TerminalWatch watch(streams);
-    const IntervalCost cost = interval_cost(study.input, study.suite, text, study.written, options, watch);
-    const Answer answer = interval_cost_answer(study, cost);
-    put_answer(answer, "--out DIR", streams);
-    const auto page = [&] { return page_html(interval_cost_page(study, cost)); };
-    if (!a.out.empty()) {
-        answer.write(a.out, {fmt::format("scene {}", study.scene.file.string())});
-        write_file(a.out / "report.html", page());
-        name_report(a.out / "report.html", streams);
-    }
-    if (!a.report.empty()) write_file(a.report, page());
-    if (!a.pdf.empty()) print_pdf(page(), a.pdf);
-    const bool any =
-        std::any_of(cost.points.begin(), cost.points.end(), [](const IntervalPoint& p) { return p.done(); });
-    return any && !watch.stop_asked() ? exit_ok : exit_no_answer;
 }
 
 } // namespace damslip::cli

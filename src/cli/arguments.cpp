@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <functional>
 #include <map>
+#include <sstream>
 
 namespace damslip::cli {
 
@@ -99,10 +100,9 @@ std::vector<std::string> flag_names(const CLI::App& app)
                           const std::vector<std::string>& known, const std::string& help)
 {
     const std::string_view near = nearest(word, known);
-    throw UsageError(Diagnostic{"", 0, 0,
-                                fmt::format("unknown {} {}{}.{}", what, word, where,
-                                            near.empty() ? "" : fmt::format(" Did you mean {}?", near)),
-                                fmt::format("{}", fmt::join(known, ", ")), "run  " + help});
+    refuse_usage(fmt::format("unknown {} {}{}.{}", what, word, where,
+                             near.empty() ? "" : fmt::format(" Did you mean {}?", near)),
+                 fmt::format("{}", fmt::join(known, ", ")), "run  " + help);
 }
 
 /// Misspelt commands and flags, which CLI11 would report without a suggestion.
@@ -165,6 +165,52 @@ UsageError usage_error(const CLI::App& top, const std::vector<std::string>& argu
                                  fmt::format("run  {} --help", path)});
 }
 
+/// "TEXT:{contact,tied}", "INT:INT in [1 - 1000]": kind, choices, range.
+void read_type(const std::string& type, OptionSummary& option)
+{
+    const std::size_t colon = type.find(':');
+    option.value = type.substr(0, colon);
+    if (colon == std::string::npos) return;
+    const std::string rule = type.substr(colon + 1);
+    const std::size_t open = rule.find_first_of("{["), close = rule.find_last_of("}]");
+    if (open == std::string::npos || close == std::string::npos || close < open) return;
+    const std::string inside = rule.substr(open + 1, close - open - 1);
+    if (rule[open] == '[') {
+        option.range = inside;
+        return;
+    }
+    std::istringstream words(inside);
+    for (std::string word; std::getline(words, word, ',');) option.choices.push_back(word);
+}
+
+OptionSummary summary_of(const CLI::Option& option)
+{
+    OptionSummary s;
+    s.positional = option.get_positional();
+    s.name = s.positional ? option.get_name(true) : "";
+    if (!s.positional && !option.get_lnames().empty()) s.name = "--" + option.get_lnames().front();
+    if (!option.get_snames().empty()) s.short_name = "-" + option.get_snames().front();
+    if (option.get_items_expected_max() > 0) read_type(option.get_type_name(), s);
+    s.default_value = option.get_default_str();
+    s.text = option.get_description();
+    s.group = option.get_group();
+    s.required = option.get_required();
+    s.repeated = option.get_items_expected_max() > 1;
+    return s;
+}
+
+void add_summaries(const CLI::App& app, const std::string& name, std::vector<CommandSummary>& out)
+{
+    CommandSummary summary{name, app.get_description(), {}, app.get_footer(), false};
+    for (const CLI::Option* option : app.get_options()) summary.options.push_back(summary_of(*option));
+    std::stable_partition(summary.options.begin(), summary.options.end(),
+                          [](const OptionSummary& o) { return o.positional; });
+    const auto below = app.get_subcommands([](const CLI::App*) { return true; });
+    summary.has_subcommands = !below.empty();
+    out.push_back(std::move(summary));
+    for (const CLI::App* sub : below) add_summaries(*sub, (name.empty() ? "" : name + " ") + sub->get_name(), out);
+}
+
 } // namespace
 
 Invocation parse_arguments(const std::vector<std::string>& arguments, std::span<const Command> rows)
@@ -192,7 +238,9 @@ std::vector<CommandSummary> command_summaries()
 {
     Parser parser;
     build(parser, commands(), [](const Command&) { return true; });
-    return summaries_of(parser.app);
+    std::vector<CommandSummary> summaries;
+    add_summaries(parser.app, "", summaries);
+    return summaries;
 }
 
 } // namespace damslip::cli

@@ -7,11 +7,9 @@
 #include "pages/report/json.hpp"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <ostream>
-#include <sstream>
 
 namespace damslip::cli {
 
@@ -51,21 +49,19 @@ void add_scene(CLI::App& sub, RunInputs& in)
 void add_run_inputs(CLI::App& sub, RunInputs& in)
 {
     add_scene(sub, in);
-    sub.add_option("--record", in.records, "horizontal accelerogram(s) instead of the scene's")->group("Ground motion");
+    sub.option_defaults()->group("Ground motion");
+    sub.add_option("--record", in.records, "horizontal accelerogram(s) instead of the scene's");
     sub.add_option("--vertical", in.verticals,
-                   "vertical accelerogram(s), one for each --record, in the same order; none for a record without one")
-        ->group("Ground motion");
+                   "vertical accelerogram(s), one for each --record, in the same order; none for a record without one");
     sub.add_option("--records", in.record_list,
                    "folder, pattern in quotes ('suite/*.AT2') or list (CSV) of accelerograms instead of the scene's; "
                    "components "
-                   "are paired by their names")
-        ->group("Ground motion");
-    sub.add_option("--units", in.unit, "unit of record files that do not say: g, m/s2, cm/s2, gal, mg")
-        ->group("Ground motion");
-    sub.add_option("--dt", in.dt, "time step of one-column record files [s]")->group("Ground motion");
-    sub.add_option("--column", in.column, "heading or number of the horizontal column where files hold several")
-        ->group("Ground motion");
-    sub.add_option("--vertical-column", in.vertical_column, "the same of the vertical files")->group("Ground motion");
+                   "are paired by their names");
+    sub.add_option("--units", in.unit, "unit of record files that do not say: g, m/s2, cm/s2, gal, mg");
+    sub.add_option("--dt", in.dt, "time step of one-column record files [s]");
+    sub.add_option("--column", in.column, "heading or number of the horizontal column where files hold several");
+    sub.add_option("--vertical-column", in.vertical_column, "the same of the vertical files");
+    sub.option_defaults()->group("Options");
 }
 
 void add_scale(CLI::App& sub, RunInputs& in)
@@ -92,28 +88,25 @@ void add_plane(CLI::App& sub, RunInputs& in)
 void add_response_spectrum(CLI::App& sub, SpectrumArguments& a)
 {
     const char* const group = "Response spectrum";
+    sub.option_defaults()->group(group);
     CLI::Option* on = sub.add_flag("--response-spectrum", a.wanted,
-                                   "peaks of the dam on a bonded base by its modes: forces, stresses, factors")
-                          ->group(group);
+                                   "peaks of the dam on a bonded base by its modes: forces, stresses, factors");
     CLI::Option* file = sub.add_option("--spectrum", a.horizontal,
                                        "its spectrum at 5 % damping, period [s] and S_a over any unit, in place of the "
                                        "records'")
-                            ->needs(on)
-                            ->group(group);
+                            ->needs(on);
     CLI::Option* pga = sub.add_option("--spectrum-pga", a.pga, "S_a at period 0 of that spectrum [m/s^2]")
                            ->check(in_range(1e-3, 100.0))
-                           ->needs(file)
-                           ->group(group);
+                           ->needs(file);
     file->needs(pga);
     CLI::Option* vertical = sub.add_option("--spectrum-vertical", a.vertical,
                                            "the same of the vertical component; without it that spectrum has none")
-                                ->needs(file)
-                                ->group(group);
+                                ->needs(file);
     CLI::Option* vertical_pga =
         sub.add_option("--spectrum-vertical-pga", a.vertical_pga, "S_a at period 0 of the vertical spectrum [m/s^2]")
             ->check(in_range(1e-3, 100.0))
-            ->needs(vertical)
-            ->group(group);
+            ->needs(vertical);
+    sub.option_defaults()->group("Options");
     vertical->needs(vertical_pga);
 }
 
@@ -164,63 +157,6 @@ std::function<std::string(const std::string&)> output_to(OutputPath kind, const 
         if (auto problem = output_path_problem(path, kind, flag)) throw UsageError(std::move(*problem));
         return {};
     };
-}
-
-namespace {
-
-/// "TEXT:{contact,tied}", "INT:INT in [1 - 1000]": kind, choices, range.
-void read_type(const std::string& type, OptionSummary& option)
-{
-    const std::size_t colon = type.find(':');
-    option.value = type.substr(0, colon);
-    if (colon == std::string::npos) return;
-    const std::string rule = type.substr(colon + 1);
-    const std::size_t open = rule.find_first_of("{["), close = rule.find_last_of("}]");
-    if (open == std::string::npos || close == std::string::npos || close < open) return;
-    const std::string inside = rule.substr(open + 1, close - open - 1);
-    if (rule[open] == '[') {
-        option.range = inside;
-        return;
-    }
-    std::istringstream words(inside);
-    for (std::string word; std::getline(words, word, ',');) option.choices.push_back(word);
-}
-
-OptionSummary summary_of(const CLI::Option& option)
-{
-    OptionSummary s;
-    s.positional = option.get_positional();
-    s.name = s.positional ? option.get_name(true) : "";
-    if (!s.positional && !option.get_lnames().empty()) s.name = "--" + option.get_lnames().front();
-    if (!option.get_snames().empty()) s.short_name = "-" + option.get_snames().front();
-    if (option.get_items_expected_max() > 0) read_type(option.get_type_name(), s);
-    s.default_value = option.get_default_str();
-    s.text = option.get_description();
-    s.group = option.get_group();
-    s.required = option.get_required();
-    s.repeated = option.get_items_expected_max() > 1;
-    return s;
-}
-
-void add_summaries(const CLI::App& app, const std::string& name, std::vector<CommandSummary>& out)
-{
-    CommandSummary summary{name, app.get_description(), {}, app.get_footer(), false};
-    for (const CLI::Option* option : app.get_options()) summary.options.push_back(summary_of(*option));
-    std::stable_partition(summary.options.begin(), summary.options.end(),
-                          [](const OptionSummary& o) { return o.positional; });
-    const auto below = app.get_subcommands([](const CLI::App*) { return true; });
-    summary.has_subcommands = !below.empty();
-    out.push_back(std::move(summary));
-    for (const CLI::App* sub : below) add_summaries(*sub, (name.empty() ? "" : name + " ") + sub->get_name(), out);
-}
-
-} // namespace
-
-std::vector<CommandSummary> summaries_of(const CLI::App& app)
-{
-    std::vector<CommandSummary> out;
-    add_summaries(app, "", out);
-    return out;
 }
 
 } // namespace damslip::cli

@@ -15,10 +15,6 @@
 #include <utility>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 /// The table of commands: one row for each word after `damslip`. Command line, help, completion and manual pages follow from it.
 namespace damslip::cli {
 
@@ -94,38 +90,5 @@ void add_sheet(CLI::App& sub, std::filesystem::path& target, const std::string& 
 /// Check of an option that names output: what would fail after minutes is said before anything begins.
 /// @throws UsageError, from the check
 std::function<std::string(const std::string&)> output_to(OutputPath kind, const std::string& flag);
-
-} // namespace damslip::cli
-
-namespace CLI {
-class App;
-}
-
-namespace damslip::cli {
-
-/// An option or a positional argument of a command, as its help says it.
-struct OptionSummary {
-    std::string name;                 ///< "--record"; of a positional argument "SCENE"
-    std::string short_name;           ///< "-o"; empty: none
-    std::string value;                ///< kind of value: "TEXT", "FLOAT"; empty: a flag
-    std::vector<std::string> choices; ///< the only values; empty: any
-    std::string range;                ///< "1 - 1000"; empty: any
-    std::string default_value;        ///< empty: none is said
-    std::string text;                 ///< what it means
-    std::string group;                ///< "Options", "Ground motion"
-    bool positional = false, required = false, repeated = false;
-};
-
-/// A command as its help says it, for completion, manual pages and the tests.
-struct CommandSummary {
-    std::string name; ///< "record info"; of the program itself empty
-    std::string description;
-    std::vector<OptionSummary> options; ///< positional ones first
-    std::string footer;                 ///< "Example:\n  damslip ..."
-    bool has_subcommands = false;
-};
-
-/// Of the app and of everything below it, the app first.
-std::vector<CommandSummary> summaries_of(const CLI::App& app);
 
 } // namespace damslip::cli

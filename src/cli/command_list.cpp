@@ -26,25 +26,10 @@ Command man_command();
 namespace {
 
 /// A row that damslip-verify carries out.
-template <class Arguments>
-int hand_on(const Arguments&, const Streams& streams)
+template <class Arguments, Command (*command)(Carry<Arguments>)>
+Command handed_on()
 {
-    return streams.hand_on();
-}
-
-Command study_row()
-{
-    return study_command(hand_on<StudyArguments>);
-}
-
-Command mesh_row()
-{
-    return mesh_command(hand_on<MeshArguments>);
-}
-
-Command verify_row()
-{
-    return verify_command(hand_on<VerifyArguments>);
+    return command([](const Arguments&, const Streams& streams) { return streams.hand_on(); });
 }
 
 } // namespace
@@ -63,15 +48,15 @@ std::span<const Command> commands()
                  sweep_command,
                  fragility_command,
                  worker_command,
-                 study_row,
+                 handed_on<StudyArguments, study_command>,
                  fe_command,
                  modes_command,
                  calibrate_command,
-                 mesh_row,
+                 handed_on<MeshArguments, mesh_command>,
                  explain_command,
                  accuracy_command,
                  record_command,
-                 verify_row,
+                 handed_on<VerifyArguments, verify_command>,
                  schema_command,
                  completion_command,
                  man_command,

@@ -184,8 +184,8 @@ int completion(const std::string& shell, const Streams& streams)
     else if (shell == "fish")
         script = fish(commands);
     else
-        throw UsageError(Diagnostic{"", 0, 0, fmt::format("completion {}: this shell is not known.", shell),
-                                    "bash, zsh or fish", "for example  damslip completion bash"});
+        refuse_usage(fmt::format("completion {}: this shell is not known.", shell), "bash, zsh or fish",
+                     "for example  damslip completion bash");
     if (!put_json_document(streams, "completion", {{"script", script}})) streams.out << script;
     return exit_ok;
 }
@@ -371,8 +371,8 @@ int man(const ManArguments& arguments, const Streams& streams)
     const std::string wanted = fmt::format("{}", fmt::join(arguments.command, " "));
     const auto found = std::find_if(all.begin(), all.end(), [&](const CommandSummary& c) { return c.name == wanted; });
     if (found == all.end())
-        throw UsageError(Diagnostic{"", 0, 0, fmt::format("man {}: there is no such command.", wanted),
-                                    "a command that damslip --help lists", "for example  damslip man fe"});
+        refuse_usage(fmt::format("man {}: there is no such command.", wanted), "a command that damslip --help lists",
+                     "for example  damslip man fe");
     const std::string text = page(*found, all);
     if (!put_json_document(streams, "man", {{"page", text}})) streams.out << text;
     return exit_ok;

@@ -182,29 +182,25 @@ int fe(const FeArguments& arguments, const Streams& streams)
 {
     const Scene given = read_run_scene(arguments.inputs, streams);
     need_section(given, "damslip fe", "damslip screen SCENE gives the slip of the wedge");
-    if ((arguments.reduced || arguments.base == "tied") && !(arguments.state_in.empty() && arguments.state_out.empty()))
-        refuse_usage(arguments.reduced ? "--state-in or --state-out with --reduced."
-                                       : "--state-in or --state-out with --base tied.",
-                     "the state of joints that slide and open, of a full run", "leave one of them out");
-    if (!given.planes.slides_on.empty() && (arguments.reduced || arguments.base == "tied" || arguments.spectrum.wanted))
-        refuse_usage(arguments.reduced           ? "--plane with --reduced."
-                     : arguments.base == "tied" ? "--plane with --base tied."
-                                                : "--plane with --response-spectrum.",
-                     "a seam in a full run", "leave one of them out");
-    if (!arguments.sheet.empty() && arguments.base == "tied")
-        refuse_usage("--sheet with --base tied.", "a dam that slides on its base", "leave one of them out");
-    if (arguments.frames && arguments.base == "tied")
-        refuse_usage("--frames with --base tied.", "a time series of a dam that slides and opens",
-                     "leave one of them out");
+    const bool tied = arguments.base == "tied";
+    const char* const simpler = arguments.reduced ? "--reduced" : tied ? "--base tied" : nullptr;
+    const auto refuse_with = [](const char* flag, const char* other, const char* expected) {
+        refuse_usage(fmt::format("{} with {}.", flag, other), expected, "leave one of them out");
+    };
+    if (simpler && !(arguments.state_in.empty() && arguments.state_out.empty()))
+        refuse_with("--state-in or --state-out", simpler, "the state of joints that slide and open, of a full run");
+    if (!given.planes.slides_on.empty() && (simpler || arguments.spectrum.wanted))
+        refuse_with("--plane", simpler ? simpler : "--response-spectrum", "a seam in a full run");
+    if (!arguments.sheet.empty() && tied) refuse_with("--sheet", simpler, "a dam that slides on its base");
+    if (arguments.frames && tied) refuse_with("--frames", simpler, "a time series of a dam that slides and opens");
     const std::vector<LevelSpectrum> spectra = given_spectra(arguments.spectrum);
     const Ready ready = prepare(given, Method::finite_elements, {.joints_of_lifts = !arguments.reduced, .stop = streams.stop});
-    if (arguments.reduced || arguments.base != "tied") say_base(ready.scene, streams);
+    if (arguments.reduced || !tied) say_base(ready.scene, streams);
     if (ready.reservoir) streams.remark(ready.reservoir->reason);
     if (ready.dam_period)
         streams.remark(fmt::format("added mass for the dam's own period {:.4g} s", 1 / ready.dam_period->frequency));
     const std::shared_ptr<const SpectrumLevel> found = find_spectrum_level(arguments.spectrum, spectra, ready);
-    return arguments.base == "tied" ? run_tied(arguments, ready, found.get(), streams)
-                                    : run_contact(arguments, ready, found.get(), streams);
+    return (tied ? run_tied : run_contact)(arguments, ready, found.get(), streams);
 }
 
 void fe_flags(CLI::App& sub, FeArguments& a)

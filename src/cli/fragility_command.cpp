@@ -18,6 +18,10 @@
 
 namespace damslip::cli {
 
+using namespace pages;
+
+namespace {
+
 struct FragilityArguments {
     RunInputs inputs; ///< SCENE and --strict
     std::string
@@ -36,12 +40,6 @@ struct FragilityArguments {
     std::filesystem::path slurm_array; ///< write a job script for all parts here instead
     int parts = 8;                     ///< of it
 };
-
-int fragility(const FragilityArguments& arguments, const Streams& streams);
-
-using namespace pages;
-
-namespace {
 
 void check_fragility_flags(const FragilityArguments& a)
 {
@@ -207,8 +205,6 @@ int finish_fragility(const FragilityArguments& a, const FragilityStudy& study, c
     return answer.answered ? exit_ok : exit_no_answer;
 }
 
-} // namespace
-
 int fragility(const FragilityArguments& a, const Streams& streams)
 {
     check_fragility_flags(a);
@@ -266,8 +262,6 @@ int fragility(const FragilityArguments& a, const Streams& streams)
     return code;
 }
 
-namespace {
-
 void fragility_flags(CLI::App& sub, FragilityArguments& a)
 {
     add_scene(sub, a.inputs);
@@ -304,17 +298,13 @@ void fragility_flags(CLI::App& sub, FragilityArguments& a)
     add_pdf(sub, a.pdf);
     add_jobs(sub, a.jobs);
     const char* const group = "Long runs";
-    sub.add_flag("--resume", a.resume, "go on where a run with the same --out stopped")->group(group);
-    sub.add_option("--shard", a.shard, "i/n: the i-th of n parts, i from 0; its runs stay in a database in --out")
-        ->group(group);
-    sub.add_flag("--merge", a.merge, "put the parts in --out together")->group(group);
+    sub.option_defaults()->group(group);
+    sub.add_flag("--resume", a.resume, "go on where a run with the same --out stopped");
+    sub.add_option("--shard", a.shard, "i/n: the i-th of n parts, i from 0; its runs stay in a database in --out");
+    sub.add_flag("--merge", a.merge, "put the parts in --out together");
     sub.add_option("--slurm-array", a.slurm_array, "write a Slurm job script for all parts")
-        ->check(output_to(OutputPath::file, "--slurm-array"))
-        ->group(group);
-    sub.add_option("--parts", a.parts, "of --slurm-array")
-        ->check(CLI::Range(1, 1'000'000))
-        ->capture_default_str()
-        ->group(group);
+        ->check(output_to(OutputPath::file, "--slurm-array"));
+    sub.add_option("--parts", a.parts, "of --slurm-array")->check(CLI::Range(1, 1'000'000))->capture_default_str();
 }
 
 } // namespace

@@ -75,8 +75,8 @@ fe2d::BaseNodes base_nodes(const MeshArguments& arguments, const fe2d::Mesh& mes
 {
     if (arguments.base == "twice") return fe2d::BaseNodes::twice;
     if (!mesh.contact.matching)
-        throw UsageError(Diagnostic{"", 0, 0, "--base shared, but the nodes of dam and rock do not face each other.",
-                                    "--base twice for such a mesh", "write  --base twice"});
+        refuse_usage("--base shared, but the nodes of dam and rock do not face each other.",
+                     "--base twice for such a mesh", "write  --base twice");
     return fe2d::BaseNodes::shared;
 }
 
@@ -93,8 +93,7 @@ Scene of_first_order(Scene scene)
 int mesh(const MeshArguments& arguments, const Streams& streams)
 {
     if (!arguments.results.empty())
-        throw UsageError(
-            Diagnostic{"", 0, 0, "--results without --to calculix.", "results of CalculiX", "add  --to calculix"});
+        refuse_usage("--results without --to calculix.", "results of CalculiX", "add  --to calculix");
     const Scene given = with_seam_body(with_joints_of_lifts(read_run_scene(arguments.inputs, streams)));
     need_section(given, "damslip mesh", "a wedge is rigid; damslip screen SCENE gives its slip");
     const Scene scene = called_for(make_effect_plan(given, Method::finite_elements), given);

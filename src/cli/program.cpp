@@ -45,15 +45,16 @@ std::string error_json(const std::string& message, const std::vector<Diagnostic>
     return j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-/// The sentences, and the error object where --json was asked for.
-void report_error(std::string message, std::vector<Diagnostic> diagnostics, int code, Form form, std::ostream& out,
-                  std::ostream& talk)
+/// The sentences, and the error object where --json was asked for. @returns the code
+int report_error(std::string message, std::vector<Diagnostic> diagnostics, int code, Form form, std::ostream& out,
+                 std::ostream& talk)
 {
     for (Diagnostic& d : diagnostics) d = with_line(std::move(d));
     if (!diagnostics.empty()) message = InputError(diagnostics).what();
     talk << message << "\n";
     if (form == Form::json) out << error_json(message, diagnostics, code);
     out.flush();
+    return code;
 }
 
 const char* const no_memory =
@@ -132,25 +133,19 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& raw_out
         out.flush();
         return out ? exit_ok : exit_input;
     } catch (const UsageError& error) {
-        report_error(error.what(), error.diagnostics(), exit_usage, form, out, talk);
-        return exit_usage;
+        return report_error(error.what(), error.diagnostics(), exit_usage, form, out, talk);
     } catch (const NotConverged& error) {
-        report_error(error.what(), {error.diagnostic()}, exit_no_answer, form, out, talk);
-        return exit_no_answer;
+        return report_error(error.what(), {error.diagnostic()}, exit_no_answer, form, out, talk);
     } catch (const Interrupted& error) {
-        report_error(error.what(), {}, exit_no_answer, form, out, talk);
-        return exit_no_answer;
+        return report_error(error.what(), {}, exit_no_answer, form, out, talk);
     } catch (const InputError& error) {
-        report_error(error.what(), error.diagnostics(), exit_input, form, out, talk);
-        return exit_input;
+        return report_error(error.what(), error.diagnostics(), exit_input, form, out, talk);
     } catch (const std::bad_alloc&) {
-        report_error(no_memory, {}, exit_no_answer, form, out, talk);
-        return exit_no_answer;
+        return report_error(no_memory, {}, exit_no_answer, form, out, talk);
     } catch (const std::exception& error) {
-        report_error(std::string("internal error: ") + error.what() +
-                         "\n  please report this with the command and the scene",
-                     {}, exit_internal, form, out, talk);
-        return exit_internal;
+        return report_error(std::string("internal error: ") + error.what() +
+                                "\n  please report this with the command and the scene",
+                            {}, exit_internal, form, out, talk);
     }
 }
 

@@ -53,7 +53,7 @@ std::string text_of(const Record& record, RecordOutput form)
 void put(const Record& record, const RecordTarget& target, const std::string& what, const Streams& streams)
 {
     remark(record, streams);
-    const std::string text = text_of(record, target.form);
+    const std::string text = text_of(record, record_output(target.to, target.out));
     if (!target.out.empty()) write_file(target.out, text);
     if (streams.form == Form::json) {
         auto j = json_header(what);
@@ -106,8 +106,11 @@ RecordOutput record_output(const std::string& word, const std::filesystem::path&
 int record_info(const RecordInfoArguments& arguments, const Streams& streams)
 {
     std::vector<Record> records;
-    for (const RecordInput& input : arguments.inputs)
+    RecordInput input = arguments.reading;
+    for (const auto& file : arguments.files) {
+        input.file = file;
         for (Record& record : channels_of(input)) records.push_back(std::move(record));
+    }
     const Table table = record_info_table(records, Checksums::shown);
     Answer answer(json_header("record-info"));
     answer.add("records", table, {.text = false});
@@ -253,6 +256,7 @@ records::GeneratedRecord generate(const RecordGenerateArguments& arguments)
 
 int record_generate(const RecordGenerateArguments& arguments, const Streams& streams)
 {
+    record_output(arguments.destination.to, arguments.destination.out); // refused before anything is made
     const records::GeneratedRecord result = generate(arguments);
     if (!streams.quiet)
         streams.talk << fmt::format(
@@ -265,26 +269,14 @@ int record_generate(const RecordGenerateArguments& arguments, const Streams& str
 
 namespace {
 
-/// What was typed of a command that reads a record and writes one.
-template <class Arguments>
-struct Filter {
-    Arguments arguments;
-    std::string form; ///< --to
-};
-
-struct RecordInfoFlags {
-    std::vector<std::filesystem::path> files;
-    RecordInput reading; ///< of all files
-};
-
 void add_reading(CLI::App& sub, RecordInput& in)
 {
-    sub.add_option("--units", in.unit, "unit of files that do not say: g, m/s2, cm/s2, gal, mg, mm/s2")
-        ->group("Reading");
-    sub.add_option("--dt", in.dt, "time step of files without one [s]")->group("Reading");
-    sub.add_option("--column", in.column, "heading or number of the acceleration column where a file holds several")
-        ->group("Reading");
-    sub.add_flag("--resample", in.resample, "interpolate uneven times")->group("Reading");
+    sub.option_defaults()->group("Reading");
+    sub.add_option("--units", in.unit, "unit of files that do not say: g, m/s2, cm/s2, gal, mg, mm/s2");
+    sub.add_option("--dt", in.dt, "time step of files without one [s]");
+    sub.add_option("--column", in.column, "heading or number of the acceleration column where a file holds several");
+    sub.add_flag("--resample", in.resample, "interpolate uneven times");
+    sub.option_defaults()->group("Options");
 }
 
 void add_input(CLI::App& sub, RecordInput& in)
@@ -293,29 +285,16 @@ void add_input(CLI::App& sub, RecordInput& in)
     add_reading(sub, in);
 }
 
-void add_target(CLI::App& sub, RecordTarget& target, std::string& form)
+void add_target(CLI::App& sub, RecordTarget& target)
 {
     add_out(sub, target.out, OutputPath::file, "file; without it: standard output", "-o,--out");
-    sub.add_option("--to", form, "csv, csv-time or at2; default: by the ending of --out");
+    sub.add_option("--to", target.to, "csv, csv-time or at2; default: by the ending of --out");
 }
 
-Command info_command()
+void info_flags(CLI::App& sub, RecordInfoArguments& a)
 {
-    const auto flags = [](CLI::App& sub, RecordInfoFlags& a) {
-        sub.add_option("FILE", a.files, "accelerograms")->required();
-        add_reading(sub, a.reading);
-    };
-    const auto run = [](const RecordInfoFlags& a, const Streams& streams) {
-        RecordInfoArguments arguments;
-        for (const auto& file : a.files) {
-            arguments.inputs.push_back(a.reading);
-            arguments.inputs.back().file = file;
-        }
-        return record_info(arguments, streams);
-    };
-    return {"info", "PGA, PGV, PGD, Arias intensity, CAV, durations, mean period, warnings",
-            "damslip record info records/data/rock_1.0_h.csv records/data/rock_1.0_v.csv",
-            with_flags<RecordInfoFlags>(flags, run)};
+    sub.add_option("FILE", a.files, "accelerograms")->required();
+    add_reading(sub, a.reading);
 }
 
 /// Command::declare of a command that reads a record and writes one. @param more  its own flags
@@ -323,17 +302,16 @@ template <class Arguments>
 std::function<Run(CLI::App&)> with_filter_flags(void (*more)(CLI::App&, Arguments&),
                                                 int (*run)(const Arguments&, const Streams&))
 {
-    const auto flags = [more](CLI::App& sub, Filter<Arguments>& a) {
-        add_input(sub, a.arguments.input);
-        add_target(sub, a.arguments.target, a.form);
-        more(sub, a.arguments);
+    const auto flags = [more](CLI::App& sub, Arguments& a) {
+        add_input(sub, a.input);
+        add_target(sub, a.target);
+        more(sub, a);
     };
-    const auto run_filter = [run](const Filter<Arguments>& a, const Streams& streams) {
-        Arguments arguments = a.arguments;
-        arguments.target.form = record_output(a.form, arguments.target.out);
-        return run(arguments, streams);
+    const auto run_filter = [run](const Arguments& a, const Streams& streams) {
+        record_output(a.target.to, a.target.out); // refused before anything is read
+        return run(a, streams);
     };
-    return with_flags<Filter<Arguments>>(flags, run_filter);
+    return with_flags<Arguments>(flags, run_filter);
 }
 
 void convert_flags(CLI::App& sub, RecordConvertArguments& a)
@@ -363,9 +341,8 @@ void spectrum_flags(CLI::App& sub, RecordSpectrumArguments& a)
     sub.add_option("--count", a.count, "number of periods")->capture_default_str();
 }
 
-void generate_flags(CLI::App& sub, Filter<RecordGenerateArguments>& filter)
+void generate_flags(CLI::App& sub, RecordGenerateArguments& g)
 {
-    RecordGenerateArguments& g = filter.arguments;
     sub.add_option("--target", g.target, "rock, ec8-1, ec8-2, or a CSV file of period [s] and spectral acceleration")
         ->capture_default_str();
     sub.add_option("--ground", g.ground, "Eurocode 8 ground type A ... E")->capture_default_str();
@@ -380,7 +357,7 @@ void generate_flags(CLI::App& sub, Filter<RecordGenerateArguments>& filter)
     sub.add_option("--rise", g.options.envelope.rise, "end of the rise, share of the duration")->capture_default_str();
     sub.add_option("--level", g.options.envelope.level, "end of the strong part, share of the duration")
         ->capture_default_str();
-    add_target(sub, g.destination, filter.form);
+    add_target(sub, g.destination);
 }
 
 void suite_flags(CLI::App& sub, RecordSuiteArguments& a)
@@ -402,13 +379,6 @@ void suite_flags(CLI::App& sub, RecordSuiteArguments& a)
             "-o,--out");
 }
 
-int run_generate(const Filter<RecordGenerateArguments>& a, const Streams& streams)
-{
-    RecordGenerateArguments arguments = a.arguments;
-    arguments.destination.form = record_output(a.form, arguments.destination.out);
-    return record_generate(arguments, streams);
-}
-
 } // namespace
 
 Command record_command()
@@ -417,7 +387,9 @@ Command record_command()
         .name = "record",
         .description = "accelerograms: info, convert, baseline, scale, spectrum, generate, suite",
         .example = "damslip record info records/data/rock_1.0_h.csv",
-        .below = {info_command(),
+        .below = {{"info", "PGA, PGV, PGD, Arias intensity, CAV, durations, mean period, warnings",
+                   "damslip record info records/data/rock_1.0_h.csv records/data/rock_1.0_v.csv",
+                   with_flags<RecordInfoArguments>(info_flags, record_info)},
                   {"convert", "another file format or time step",
                    "damslip record convert records/data/rock_1.0_h.csv --out rock.at2",
                    with_filter_flags(convert_flags, record_convert)},
@@ -432,7 +404,7 @@ Command record_command()
                    with_flags<RecordSpectrumArguments>(spectrum_flags, record_spectrum)},
                   {"generate", "artificial accelerogram that matches a response spectrum; same seed, same bytes",
                    "damslip record generate --target rock --pga-m-s2 1.0 --duration 20 --seed 2 --out rock.csv",
-                   with_flags<Filter<RecordGenerateArguments>>(generate_flags, run_generate)},
+                   with_flags<RecordGenerateArguments>(generate_flags, record_generate)},
                   {"suite", "measures of many records; those that fit a target, each with its factor",
                    "damslip record suite 'records/data/*.csv' --target-spectrum ec8-1 --target-pga-m-s2 2 --select 2 "
                    "--out suite.csv",

@@ -32,13 +32,14 @@ enum class RecordOutput { csv, csv_with_time, at2 }; ///< --to csv | csv-time | 
 /// Where a record goes; no file: standard output.
 struct RecordTarget {
     std::filesystem::path out;
-    RecordOutput form = RecordOutput::csv;
+    std::string to; ///< --to
 };
 /// Word of --to; empty: by the ending of `out` (.at2: at2, else csv). @throws UsageError for others.
 RecordOutput record_output(const std::string& word, const std::filesystem::path& out);
 
 struct RecordInfoArguments {
-    std::vector<RecordInput> inputs;
+    std::vector<std::filesystem::path> files;
+    RecordInput reading; ///< of all files
 };
 int record_info(const RecordInfoArguments& arguments, const Streams& streams);
 

@@ -70,13 +70,12 @@ int init(const InitArguments& arguments, const Streams& streams)
     InitArguments a = arguments;
     if (isatty(STDIN_FILENO) && !streams.quiet && a.dam.height <= 0.0) ask_for_the_rest(a.dam, streams);
     if (!(a.dam.height > 0.0))
-        throw UsageError(Diagnostic{"", 0, 0, "the height of the dam is missing.", "--height in metres",
-                                    "for example  damslip init dam.toml --height 62.5 --base 45"});
+        refuse_usage("the height of the dam is missing.", "--height in metres",
+                     "for example  damslip init dam.toml --height 62.5 --base 45");
     if (!a.dam.verticals.empty() && a.dam.verticals.size() != a.dam.records.size())
-        throw UsageError(Diagnostic{
-            "", 0, 0,
+        refuse_usage(
             fmt::format("{} vertical records beside {} horizontal ones.", a.dam.verticals.size(), a.dam.records.size()),
-            "one --vertical for each --record, or none", "name as many"});
+            "one --vertical for each --record, or none", "name as many");
     if (!a.force && std::filesystem::exists(a.out))
         throw UsageError(Diagnostic{a.out.string(), 0, 0, "is there already.", "a new file",
                                     "choose another name, or replace it with  --force"});
@@ -252,15 +251,14 @@ void explain_flags(CLI::App& sub, ExplainArguments& a)
     add_plane(sub, a.inputs);
     sub.add_option("--method", a.method, "rigid or fe")->check(CLI::IsMember({"rigid", "fe"}))->capture_default_str();
     const char* const group = "Ablation";
+    sub.option_defaults()->group(group);
     CLI::Option* ablate =
         sub.add_flag("--ablate", a.ablate,
-                     "runs the scene without each of its effects in turn: change of slip and crest motion, seconds")
-            ->group(group);
+                     "runs the scene without each of its effects in turn: change of slip and crest motion, seconds");
     sub.add_option("--report", a.report, "HTML file with the changes as charts")
         ->check(output_to(OutputPath::file, "--report"))
-        ->needs(ablate)
-        ->group(group);
-    add_jobs(sub, a.jobs, "threads; 0: all cores; with 1 (default) the seconds are fair")->needs(ablate)->group(group);
+        ->needs(ablate);
+    add_jobs(sub, a.jobs, "threads; 0: all cores; with 1 (default) the seconds are fair")->needs(ablate);
 }
 
 } // namespace

@@ -151,8 +151,7 @@ Scene scene_to_assess(const AssessArguments& a, const Streams& streams)
     Scene scene = read_run_scene(a.inputs, streams);
     need_section(scene, "damslip assess", "damslip screen SCENE gives the slip of the wedge");
     if (scene.motion.records.empty())
-        throw InputError(Diagnostic{a.inputs.scene.string(), 0, 0, "the scene has no record.",
-                                    "a [[motion.record]], or --record", "add  --record FILE"});
+        refuse(a.inputs.scene, "the scene has no record.", "a [[motion.record]], or --record", "add  --record FILE");
     return scene;
 }
 

@@ -175,53 +175,43 @@ std::vector<GroundMotion> motions_of(const SlideArguments& a, const Streams& str
 void slide_flags(CLI::App& sub, SlideArguments& a)
 {
     const char* const yield = "Yield acceleration";
-    sub.add_option("--yield-g", a.yield_g, "yield acceleration a_y [g], or several: 0.05,0.1 or 0.05:0.2:0.05")
-        ->group(yield);
-    sub.add_option("--yield-m-s2", a.yield_m_s2, "the same [m/s^2]")->group(yield);
+    sub.option_defaults()->group(yield);
+    sub.add_option("--yield-g", a.yield_g, "yield acceleration a_y [g], or several: 0.05,0.1 or 0.05:0.2:0.05");
+    sub.add_option("--yield-m-s2", a.yield_m_s2, "the same [m/s^2]");
     sub.add_option("--yield-table", a.yield_table,
-                   "file of slip [mm] and a_y [g], the first at 0 mm; straight lines between, the last holds")
-        ->group(yield);
-    const char* const motion = "Ground motion";
-    sub.add_option("--record", a.records, "horizontal accelerogram(s)")->group(motion);
-    sub.add_option("--records", a.record_list, "folder, pattern in quotes or list (CSV) of accelerograms")
-        ->group(motion);
-    sub.add_option("--units", a.unit, "unit of record files that do not say: g, m/s2, cm/s2, gal, mg")->group(motion);
-    sub.add_option("--dt", a.dt, "time step of one-column record files [s]")->check(in_range(1e-6, 1.0))->group(motion);
-    sub.add_option("--column", a.column, "heading or number of the column where files hold several")->group(motion);
-    sub.add_option("--scale", a.scale, "factor on all records")->check(in_range(0.0, 1e4))->group(motion);
-    sub.add_option("--pga-g", a.pga_g, "every record to this peak, before --scale [g]")
-        ->check(in_range(1e-6, 10.0))
-        ->group(motion);
+                   "file of slip [mm] and a_y [g], the first at 0 mm; straight lines between, the last holds");
+    sub.option_defaults()->group("Ground motion");
+    sub.add_option("--record", a.records, "horizontal accelerogram(s)");
+    sub.add_option("--records", a.record_list, "folder, pattern in quotes or list (CSV) of accelerograms");
+    sub.add_option("--units", a.unit, "unit of record files that do not say: g, m/s2, cm/s2, gal, mg");
+    sub.add_option("--dt", a.dt, "time step of one-column record files [s]")->check(in_range(1e-6, 1.0));
+    sub.add_option("--column", a.column, "heading or number of the column where files hold several");
+    sub.add_option("--scale", a.scale, "factor on all records")->check(in_range(0.0, 1e4));
+    sub.add_option("--pga-g", a.pga_g, "every record to this peak, before --scale [g]")->check(in_range(1e-6, 10.0));
+    sub.option_defaults()->group("Options");
     sub.add_flag("--two-way", a.two_way, "the block slides uphill, too, at the same yield");
     sub.add_option("--method", a.methods,
                    "rigid, decoupled, coupled; default: rigid, of a block with a period all of them");
-    const char* const flexible = "A block that vibrates on its base";
-    sub.add_option("--period-s", a.period_s, "period of its mode [s]")->check(in_range(1e-3, 100.0))->group(flexible);
+    sub.option_defaults()->group("A block that vibrates on its base");
+    sub.add_option("--period-s", a.period_s, "period of its mode [s]")->check(in_range(1e-3, 100.0));
     CLI::Option* height = sub.add_option("--height", a.height_m, "of a shear column in place of the period [m]")
-                              ->check(in_range(0.01, 1000.0))
-                              ->group(flexible);
+                              ->check(in_range(0.01, 1000.0));
     CLI::Option* velocity =
         sub.add_option("--shear-velocity", a.velocity_m_s, "V_s of the column at small strain [m/s]")
             ->check(in_range(1.0, 10000.0))
-            ->needs(height)
-            ->group(flexible);
+            ->needs(height);
     height->needs(velocity);
     sub.add_option("--base-velocity", a.base_velocity_m_s,
                    "V_s of the rock below: what it radiates is added to the damping")
         ->check(in_range(1.0, 10000.0))
-        ->needs(height)
-        ->group(flexible);
+        ->needs(height);
     sub.add_option("--reference-strain", a.reference_strain_percent,
                    "at which the column's shear modulus is halved [%]: period and damping follow the strain")
         ->check(in_range(1e-4, 100.0))
-        ->needs(height)
-        ->group(flexible);
-    sub.add_option("--damping", a.damping, "damping ratio of the mode (0.05)")
-        ->check(in_range(0.0, 0.5))
-        ->group(flexible);
+        ->needs(height);
+    sub.add_option("--damping", a.damping, "damping ratio of the mode (0.05)")->check(in_range(0.0, 0.5));
     sub.add_option("--mass-ratio", a.mass_ratio, "effective mass of the mode over the mass (8/pi^2)")
-        ->check(in_range(1e-3, 0.95))
-        ->group(flexible);
+        ->check(in_range(1e-3, 0.95));
 }
 
 /// Slip on a given yield acceleration, without a section: every record both ways, and their mean.

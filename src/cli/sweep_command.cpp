@@ -1,5 +1,3 @@
-#include "cli/sweep_command.hpp"
-
 #include "analysis/sweep/sweep_store.hpp"
 #include "cli/command.hpp"
 #include "cli/input/make_axes.hpp"
@@ -11,13 +9,16 @@
 #include "pages/report/table_text.hpp"
 #include "pages/sweep/sweep_pages.hpp"
 #include "scene/plausible.hpp"
+#include "scene/uplift_models.hpp"
 #include "scene/write.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <ostream>
+#include <ranges>
 
 namespace damslip::cli {
 
@@ -57,14 +58,6 @@ void check_flags(const SweepArguments& a, Form form)
     if (form == Form::json && (!a.shard.empty() || !a.merge.empty()))
         refuse_usage(fmt::format("{} with --json.", a.shard.empty() ? "--merge" : "--shard"),
                      "parts are put together as a CSV file", "delete --json");
-}
-
-void put(const std::filesystem::path& file, const std::string& text, const Streams& streams)
-{
-    if (file.empty())
-        streams.out << text;
-    else
-        write_file(file, text);
 }
 
 constexpr std::size_t largest_report = 300'000; ///< rows
@@ -277,8 +270,9 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
     const Table table = sweep_table(grid, wanted, outcome, job.arguments.mean_polarity);
     Table compared;
     if (outcome.fe && !job.shard) compared = comparison_table(grid, compare_with_rigid(job.scene, grid, outcome));
-    if (!job.shard && (!job.arguments.out.empty() || rows_on_out(job.arguments, streams)))
-        put(job.arguments.out, csv(table, csv_comments(identity)), streams);
+    const auto text = [&] { return csv(table, csv_comments(identity)); };
+    if (!job.shard && !job.arguments.out.empty()) write_file(job.arguments.out, text());
+    if (!job.shard && rows_on_out(job.arguments, streams)) streams.out << text();
     const SweepView view = sweep_view(grid, wanted, outcome);
     const SweepReportInput in{.scene = &job.scene,
                               .rows = table,
@@ -397,8 +391,8 @@ int run(const Job& job, const Records& records, const Streams& streams)
     return code;
 }
 
-} // namespace
-
+/// The full grid of friction x level x uplift x reservoir x size x scale x polarity x record x method, one CSV row each,
+/// in that order: the same bytes for any number of threads, any parts, and any number of stops and resumptions.
 int sweep(const SweepArguments& arguments, const Streams& streams)
 {
     check_flags(arguments, streams.form);
@@ -431,6 +425,77 @@ int sweep(const SweepArguments& arguments, const Streams& streams)
     Job job{arguments, scene, axes, tasks, std::nullopt};
     if (!arguments.shard.empty()) job.shard = parse_shard(arguments.shard, "--shard");
     return run(job, load_records(scene, Method::rigid_block), streams);
+}
+
+void add_sweep_parts(CLI::App& sub, SweepArguments& a)
+{
+    const char* const group = "Long sweeps";
+    sub.option_defaults()->group(group);
+    sub.add_flag("--resume", a.resume, "go on where a sweep with the same --out stopped");
+    sub.add_option("--shard", a.shard, "i/n: the i-th of n parts, i from 0, into OUT.i-of-n.sqlite");
+    sub.add_option("--merge", a.merge,
+                   "put parts together: their databases, or folders of them; with SCENE its report has the section and "
+                   "the records");
+    sub.add_flag("--plan", a.plan, "print the commands of all parts, one a line");
+    sub.add_option("--slurm-array", a.slurm_array, "write a Slurm job script for all parts")
+        ->check(output_to(OutputPath::file, "--slurm-array"));
+    sub.add_option("--parts", a.parts, "of --plan and --slurm-array; default: one per scene variant and motion")
+        ->check(CLI::Range(1, 1000000));
+    sub.option_defaults()->group("Options");
+}
+
+void sweep_flags(CLI::App& sub, SweepArguments& a)
+{
+    add_run_inputs(sub, a.inputs);
+    sub.get_option("SCENE")->required(false); // --merge has none
+    const auto list = [&](const char* flag, std::string& target, const std::string& text) {
+        sub.add_option(flag, target, text)->group("Grid");
+    };
+    list("--friction", a.friction, "Coulomb mu: 1.00,0.84,0.77 or first:last:step 0.65:1.0:0.05");
+    list("--friction-deg", a.friction_deg, "friction angles instead [deg]");
+    list("--plane", a.plane,
+         "what the dam slides on: base, seams by name, of rigid blocks lifts such as \"lift at 30 m\", too; each has "
+         "its own friction unless --friction gives one for all");
+    list("--level", a.level, "water levels above the heel, at size 1 [m]");
+    list("--uplift", a.uplift,
+         fmt::format("{}", fmt::join(uplift_rows() | std::views::transform(&UpliftRow::word), ", ")));
+    list("--opening-water", a.opening_water,
+         "rules for the water in the opening base, side by side: unchanged, zero, full, mouth (with the scene's "
+         "mouth_speed_m_s), reynolds");
+    list("--reservoir", a.reservoir, fmt::format("{}", fmt::join(reservoir_axis_words(), ", ")));
+    list("--size", a.size, "factors on all lengths of the scene: dam, rock, water, elements");
+    list("--period", a.period, "periods of the flexible block [s], for decoupled and coupled");
+    list("--damping", a.damping, "damping ratios of the flexible block, for decoupled and coupled");
+    list("--scale", a.scale, "factors on the records");
+    list("--polarity", a.polarity, "1, -1 or both (default: both, or motion.polarity of the scene)");
+    sub.add_flag("--mean-polarity", a.mean_polarity, "a column with the mean slip of --polarity 1,-1");
+    list("--method", a.method,
+         "rigid (horizontal), rigid-v (with the vertical component), rocking (the same, free to rock on toe and heel), "
+         "decoupled and coupled (the block that vibrates on its base: [flexible_block] or --period), fe (finite "
+         "elements with the scene's contact law), fe-exact, fe-penalty, fe-slip-tolerance, fe-whole-steps, "
+         "fe-goldgruber-2015, fe-radiating, fe-massless, fe-reduced, and regressions by id such as "
+         "ambraseys-menu-1988, jibson-1993, jibson-1998");
+    sub.add_option("--modes", a.modes, "elastic modes of fe-reduced (12)")->check(CLI::Range(1, 1000));
+    sub.add_flag("--truncation-error", a.truncation_error,
+                 "estimate for every row of fe-reduced what the modes left out change");
+    sub.add_option("--penalty-stiffness", a.penalty_stiffness, "of fe-penalty [N/m3]")->check(in_range(1.0, 1e20));
+    sub.add_option("--scheme", a.inputs.scheme, "exact (default) or slammer");
+    add_out(sub, a.out, OutputPath::regular_file,
+            "CSV file, beside it a report (.html) and a database of the rows (.sqlite) for --resume; without it the "
+            "rows go to standard output",
+            "-o,--out");
+    add_pdf(sub, a.pdf);
+    add_jobs(sub, a.jobs);
+    add_sweep_parts(sub, a);
+}
+
+} // namespace
+
+Command sweep_command()
+{
+    return {"sweep", "slip over a grid of friction, level, uplift, reservoir, size, scale, polarity and records; CSV",
+            "damslip sweep examples/reference_dam.toml --friction 0.65:1.0:0.05 --uplift curtain,linear --scale 1,2",
+            with_flags<SweepArguments>(sweep_flags, sweep)};
 }
 
 } // namespace damslip::cli

@@ -91,10 +91,9 @@ int start_verifier(const std::vector<std::string>& arguments)
     words.push_back(nullptr);
     ::execv((own_folder() / name).c_str(), words.data()); // comes back only where it failed
     ::execvp(name, words.data());
-    throw InputError(Diagnostic{name, 0, 0,
-                                "this program is not installed; it carries out verify, study and mesh --to calculix.",
-                                "damslip-verify beside damslip or on the PATH",
-                                "install the whole package, or build it:  cmake --build --preset release"});
+    refuse(name, "this program is not installed; it carries out verify, study and mesh --to calculix.",
+           "damslip-verify beside damslip or on the PATH",
+           "install the whole package, or build it:  cmake --build --preset release");
 }
 
 namespace {
@@ -127,8 +126,8 @@ public:
     {
         std::string name = (std::filesystem::temp_directory_path() / "damslip-print-XXXXXX").string();
         if (!mkdtemp(name.data()))
-            throw InputError(Diagnostic{name, 0, 0, "no folder can be made there to print from.",
-                                        "a folder for temporary files that can be written", "set TMPDIR to one"});
+            refuse(name, "no folder can be made there to print from.",
+                   "a folder for temporary files that can be written", "set TMPDIR to one");
         path_ = name;
     }
     ~PrintFolder()
@@ -239,9 +238,9 @@ void print_pdf(const std::string& html, const std::filesystem::path& target)
     const bool ended = browser && run_to_end(*browser, arguments, said);
     std::error_code missing;
     if (!ended || std::filesystem::file_size(printed, missing) == 0 || missing)
-        throw InputError(Diagnostic{target.string(), 0, 0, "Chromium did not print the report. " + last_words(said),
-                                    fmt::format("a page within {} s", longest_print.count()),
-                                    "write the report (--out) and print it from a browser"});
+        refuse(target, "Chromium did not print the report. " + last_words(said),
+               fmt::format("a page within {} s", longest_print.count()),
+               "write the report (--out) and print it from a browser");
     write_file(target, read_file(printed));
 }
 
@@ -275,9 +274,9 @@ void write_sheet(const std::filesystem::path& target, const std::function<void(c
                                              "--convert-to", "ods", "--outdir", made.parent_path().string(), (folder / "sheet.xlsx").string()},
                                             said);
     if (!ended || !std::filesystem::exists(made))
-        throw InputError(Diagnostic{target.string(), 0, 0, "LibreOffice did not write the workbook. " + last_words(said),
-                                    fmt::format("a file within {} s", longest_print.count()),
-                                    "write a file that ends in .xlsx and save it from LibreOffice"});
+        refuse(target, "LibreOffice did not write the workbook. " + last_words(said),
+               fmt::format("a file within {} s", longest_print.count()),
+               "write a file that ends in .xlsx and save it from LibreOffice");
     write_file(target, read_file(made));
 }
 

@@ -23,29 +23,21 @@ namespace damslip {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-[[noreturn]] void refuse_read(const fs::path& path, std::string problem, std::string fix)
-{
-    throw InputError(Diagnostic{path.string(), 0, 0, std::move(problem), "a readable file", std::move(fix)});
-}
-
-} // namespace
-
 std::string read_file(const fs::path& path, std::uintmax_t max_bytes, const LookAtStart& look)
 {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (!fs::exists(status) || path.native().find('\0') != std::string::npos) // the system reads a name up to a NUL
-        refuse_read(path, "there is no such file.",
-                    "check the name; relative names start from the file that mentions them");
-    if (fs::is_directory(status)) refuse_read(path, "this is a folder, not a file.", "name a file inside it");
+        refuse(path, "there is no such file.", "a readable file",
+               "check the name; relative names start from the file that mentions them");
+    if (fs::is_directory(status))
+        refuse(path, "this is a folder, not a file.", "a readable file", "name a file inside it");
     std::ifstream in(path, std::ios::binary);
-    if (!in) refuse_read(path, "the file cannot be opened.", "check its read permission");
+    if (!in) refuse(path, "the file cannot be opened.", "a readable file", "check its read permission");
     const auto check = [&](std::uintmax_t size) {
         if (size > max_bytes)
-            refuse_read(path, fmt::format("the file is larger than {} MB.", max_bytes >> 20),
-                        "this is not one of the formats read here; cut it down");
+            refuse(path, fmt::format("the file is larger than {} MB.", max_bytes >> 20), "a readable file",
+                   "this is not one of the formats read here; cut it down");
     };
     if (fs::is_regular_file(status)) check(fs::file_size(path, error));
     std::string content;
@@ -117,7 +109,7 @@ int write_all(int descriptor, std::string_view content)
 [[noreturn]] void refuse_write(const fs::path& path, const std::string& why,
                                const char* expected = "a folder with write permission and space left")
 {
-    throw InputError(Diagnostic{path.string(), 0, 0, "cannot be written: " + why, expected, "choose another output"});
+    refuse(path, "cannot be written: " + why, expected, "choose another output");
 }
 
 std::atomic<int> temporaries{0};
@@ -175,18 +167,14 @@ void FileWriter::write(std::string_view bytes)
 
 void FileWriter::finish()
 {
-    if (::close(std::exchange(descriptor_, -1)) != 0) {
-        const std::string why = std::strerror(errno);
-        std::error_code error;
-        if (!part_.empty()) fs::remove(part_, error);
-        refuse_write(named_, why);
-    }
-    if (part_.empty()) return;
     std::error_code error;
-    fs::rename(part_, target_, error);
+    if (::close(std::exchange(descriptor_, -1)) != 0)
+        error.assign(errno, std::generic_category());
+    else if (!part_.empty())
+        fs::rename(part_, target_, error);
     if (!error) return;
     const std::string why = error.message();
-    fs::remove(part_, error);
+    if (!part_.empty()) fs::remove(part_, error);
     refuse_write(named_, why);
 }
 

@@ -3,10 +3,16 @@
 #include "core/text.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace damslip {
 
 namespace {
+
+constexpr std::pair<std::string_view, IntensityMeasure> words[]{{"PGA", IntensityMeasure::pga},
+                                                                {"PGV", IntensityMeasure::pgv},
+                                                                {"IA", IntensityMeasure::arias},
+                                                                {"CAV", IntensityMeasure::cav}};
 
 /// "0.1, 0.2" -> numbers; nothing where one is no period, or not larger than the one before.
 std::optional<std::vector<double>> periods_of(std::string_view text)
@@ -27,10 +33,8 @@ std::optional<std::vector<double>> periods_of(std::string_view text)
 
 std::optional<IntensityName> parse_intensity(std::string_view text)
 {
-    if (text == "PGA") return IntensityName{IntensityMeasure::pga, false, {}};
-    if (text == "PGV") return IntensityName{IntensityMeasure::pgv, false, {}};
-    if (text == "IA") return IntensityName{IntensityMeasure::arias, false, {}};
-    if (text == "CAV") return IntensityName{IntensityMeasure::cav, false, {}};
+    for (const auto& [word, measure] : words)
+        if (text == word) return IntensityName{measure, false, {}};
     if (text == "SA(T1)") return IntensityName{IntensityMeasure::sa, true, {}};
     if (!text.ends_with(')')) return std::nullopt;
     const bool average = text.starts_with("avgSA(");
@@ -44,13 +48,8 @@ std::optional<IntensityName> parse_intensity(std::string_view text)
 
 std::string text_of(const IntensityName& name)
 {
-    switch (name.measure) {
-    case IntensityMeasure::pga: return "PGA";
-    case IntensityMeasure::pgv: return "PGV";
-    case IntensityMeasure::arias: return "IA";
-    case IntensityMeasure::cav: return "CAV";
-    default: break;
-    }
+    for (const auto& [word, measure] : words)
+        if (name.measure == measure) return std::string(word);
     if (name.first_period) return "SA(T1)";
     std::string text = name.measure == IntensityMeasure::avg_sa ? "avgSA(" : "SA(";
     for (std::size_t i = 0; i < name.periods.size(); ++i) text += (i ? "," : "") + shortest(name.periods[i]);

@@ -110,17 +110,8 @@ std::optional<double> reported(Status status, double slip)
 
 std::string word(Verdict verdict)
 {
-    switch (verdict) {
-    case Verdict::pass:
-        return "PASS";
-    case Verdict::fail:
-        return "FAIL";
-    case Verdict::undecided:
-        return "undecided";
-    case Verdict::none:
-        break;
-    }
-    return "–";
+    constexpr std::array words{"PASS", "FAIL", "undecided", "–"}; // in the order of the enumeration
+    return words[static_cast<std::size_t>(verdict)];
 }
 
 std::string judge_events(Status whole, double length, std::vector<EventSlip>& events)

@@ -1,6 +1,5 @@
 #include "core/text.hpp"
 
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
@@ -177,9 +176,9 @@ std::optional<double> parse_whole_number_text(std::string_view text)
 
 std::string shortest(double value)
 {
-    std::array<char, 32> buffer;
-    const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-    return {buffer.data(), end};
+    std::string text;
+    append_shortest(text, value);
+    return text;
 }
 
 std::string factor_text(double factor)

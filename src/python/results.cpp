@@ -50,17 +50,8 @@ pages::Page charts_of(pages::Page page)
 
 std::string outcome_word(const pages::Headline& headline)
 {
-    switch (headline.outcome) {
-    case pages::Outcome::pass:
-        return "pass";
-    case pages::Outcome::fail:
-        return "fail";
-    case pages::Outcome::unresolved:
-        return "unresolved";
-    case pages::Outcome::none:
-        break;
-    }
-    return "none";
+    constexpr std::array words{"none", "pass", "fail", "unresolved"}; // in the order of the enumeration
+    return words[static_cast<std::size_t>(headline.outcome)];
 }
 
 } // namespace

@@ -1,8 +1,5 @@
 #include "scene/added_mass_formulas.hpp"
 
-#include <algorithm>
-#include <cassert>
-
 namespace damslip {
 
 /// Those of the source. Their values are those of sliding/loads, which also sums the series.
@@ -25,20 +22,6 @@ std::vector<AddedMassRow> named_added_mass_formulas()
 const AddedMassRow& added_mass_row(AddedMassFormula formula)
 {
     return added_mass_rows()[std::size_t(formula)];
-}
-
-AddedMassFormula added_mass_formula(std::string_view word)
-{
-    const auto rows = added_mass_rows();
-    const auto found =
-        std::find_if(rows.begin(), rows.end(), [word](const AddedMassRow& row) { return row.word == word; });
-    assert(found != rows.end());
-    return AddedMassFormula(found - rows.begin());
-}
-
-bool has_what_it_needs(const Scene& scene, const AddedMassRow& row)
-{
-    return !row.there || row.there(scene);
 }
 
 } // namespace damslip

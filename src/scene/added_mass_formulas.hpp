@@ -1,11 +1,11 @@
 #pragma once
 
 #include "scene/scene.hpp"
+#include "scene/word_rows.hpp"
 
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 /// The table of added-mass formulas: one row for each word of added_mass.formula.
@@ -34,11 +34,5 @@ struct AddedMassRow {
 /// All rows; the place of a row is the value of its AddedMassFormula.
 std::span<const AddedMassRow> added_mass_rows();
 const AddedMassRow& added_mass_row(AddedMassFormula formula);
-
-/// The formula of a word that is in the table.
-AddedMassFormula added_mass_formula(std::string_view word);
-
-/// The scene has what the formula needs.
-bool has_what_it_needs(const Scene& scene, const AddedMassRow& row);
 
 } // namespace damslip

@@ -28,6 +28,11 @@ namespace damslip::checks {
 /// "curtain.depth_m = 12"
 std::string value(const char* key, double x);
 
+/// "contact.max_slip_m is given, but contact.sliding is not \"finite\"." @param key, unit  "max_slip", "_m"
+/// @param choice, word  with which the key counts: "sliding", "finite"
+void wrong_without(Findings& f, const std::string& table, const std::string& key, const char* unit, const char* choice,
+                   const char* word);
+
 /// Curtain, drains, rock box and uplift along the base.
 void check_base(const Scene& s, Findings& f);
 
@@ -38,14 +43,10 @@ void check_rock(const Scene& s, Findings& f);
 void check_strength(const Contact& c, const std::string& table, Findings& f);
 void check_lift_joints(const Scene& s, Findings& f);
 
-/// Bond of one plane, as check_strength().
-void check_bond(const Contact& c, const std::string& table, Findings& f);
 /// Laws of the joints beyond Coulomb's, and what cannot go with them.
 void check_joint_laws(const Scene& s, Findings& f);
 /// Water that follows the opening of the base.
 void check_opening_water(const Scene& s, Findings& f);
-/// Friction over the rate of slip. @param table  as of check_strength()
-void check_rate(const Contact& c, const std::string& table, Findings& f);
 /// What follows friction over the rate, rebounds and sequences, and what does not.
 void check_rate_methods(const Scene& s, Findings& f);
 

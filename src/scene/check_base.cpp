@@ -15,7 +15,52 @@
 #include <utility>
 #include <vector>
 
+namespace damslip {
+
+void check_consistency(const Scene& scene, Findings& findings, FileCheck files)
+{
+    if (scene.wedge) {
+        checks::check_wedge(scene, findings);
+        checks::check_motion(scene, findings, files);
+        checks::check_sequence(scene, findings);
+        return;
+    }
+    checks::check_base(scene, findings);
+    checks::check_rock(scene, findings);
+    checks::check_strength(scene.contact, "contact", findings);
+    checks::check_lift_joints(scene, findings);
+    checks::check_joint(scene, findings);
+    checks::check_planes(scene, findings);
+    checks::check_anchors(scene, findings);
+    checks::check_water(scene, findings);
+    checks::check_motion(scene, findings, files);
+    checks::check_sequence(scene, findings);
+    checks::check_rate_methods(scene, findings);
+    checks::check_flexible_block(scene, findings);
+    checks::check_combinations(scene, findings);
+    checks::check_fe(scene, findings);
+    checks::check_joint_laws(scene, findings);
+    checks::check_opening_water(scene, findings);
+    checks::check_mesh_file(scene, findings, files);
+}
+
+} // namespace damslip
+
 namespace damslip::checks {
+
+std::string value(const char* key, double x)
+{
+    return fmt::format("{} = {}", key, shortest(x));
+}
+
+void wrong_without(Findings& f, const std::string& table, const std::string& key, const char* unit, const char* choice,
+                   const char* word)
+{
+    f.wrong(table + "." + key,
+            fmt::format("{0}.{1}{2} is given, but {0}.{3} is not \"{4}\".", table, key, unit, choice, word),
+            fmt::format("{} = \"{}\" with {}{}", choice, word, key, unit),
+            fmt::format("write  {} = \"{}\"  or delete {}{}", choice, word, key, unit));
+}
 
 void check_base(const Scene& s, Findings& f)
 {
@@ -60,8 +105,7 @@ void check_base(const Scene& s, Findings& f)
         f.wrong("uplift.model", fmt::format("uplift.model = \"{}\" needs {}.", row.word, row.needs), row.needs,
                 fmt::format("add {} or choose another uplift.model", row.needs));
     if (s.uplift->model != UpliftModel::points && !s.uplift->points.empty())
-        f.wrong("uplift.points", "uplift.points_m is given, but uplift.model is not \"points\".",
-                "model = \"points\" with points_m", "write  model = \"points\"  or delete points_m");
+        wrong_without(f, "uplift", "points", "_m", "model", "points");
     const auto& p = s.uplift->points;
     for (std::size_t i = 0; i < p.size(); ++i)
         if (p[i].x < 0 || p[i].x > base * (1 + 1e-12) || (i && p[i].x < p[i - 1].x)) {
@@ -89,12 +133,9 @@ void check_normal_contact(const Contact& c, Findings& f)
 {
     if (c.normal != NormalContact::exponential) {
         for (const auto& [key, unit] :
-             {std::pair("pressure_at_zero_clearance", "kPa"), std::pair("clearance_at_zero_pressure", "m")})
+             {std::pair("pressure_at_zero_clearance", "_kPa"), std::pair("clearance_at_zero_pressure", "_m")})
             if (f.given(fmt::format("contact.{}", key)))
-                f.wrong(fmt::format("contact.{}", key),
-                        fmt::format("contact.{}_{} is given, but contact.normal is not \"exponential\".", key, unit),
-                        fmt::format("normal = \"exponential\" with {}_{}", key, unit),
-                        fmt::format("write  normal = \"exponential\"  or delete {}_{}", key, unit));
+                wrong_without(f, "contact", key, unit, "normal", "exponential");
         return;
     }
     if (c.separation == JointOpening::none)
@@ -105,6 +146,28 @@ void check_normal_contact(const Contact& c, Findings& f)
         f.wrong("contact.normal", "contact.normal = \"exponential\" with contact.enforcement = \"slip-tolerance\".",
                 "enforcement = \"exact\" or \"penalty\" with the exponential pressure",
                 "write  enforcement = \"penalty\"  with tangential_stiffness_N_m3, or  enforcement = \"exact\"");
+}
+
+/// Friction over the rate of slip. @param table  "contact" or "lift_joint[1]"
+void check_rate(const Contact& c, const std::string& table, Findings& f)
+{
+    const auto key = [&table](const char* name) { return table + "." + name; };
+    if (c.rate.active() && !c.rate.characteristic_rate)
+        f.wrong(key("kinetic_friction_ratio"),
+                fmt::format("{} = {} without {}.", key("kinetic_friction_ratio"), shortest(c.rate.kinetic_ratio),
+                            key("characteristic_rate_m_s")),
+                "both: the rate v_c says how fast friction goes from mu to mu_k",
+                "add  characteristic_rate_m_s = 0.01  , or delete kinetic_friction_ratio");
+    if (c.rate.active()) return;
+    for (const auto& [name, unit] : {std::pair("characteristic_rate", "_m_s"), std::pair("relaxation_time", "_s"),
+                                     std::pair("relaxation_slip", "_m")})
+        if (f.given(key(name)))
+            f.wrong(
+                key(name),
+                fmt::format("{}{} is given, but {} is {}.", key(name), unit, key("kinetic_friction_ratio"),
+                            f.given(key("kinetic_friction_ratio")) ? "1: friction does not depend on the rate" : "not"),
+                "the keys of friction over the rate together, with a ratio that is not 1",
+                fmt::format("add  kinetic_friction_ratio = 0.8  , or delete {}{}", name, unit));
 }
 
 } // namespace
@@ -189,18 +252,11 @@ void check_joint(const Scene& s, Findings& f)
         f.wrong("contact.enforcement", "contact.enforcement = \"penalty\" without contact.tangential_stiffness_N_m3.",
                 "both", "add  tangential_stiffness_N_m3 = 1e11  to [contact]");
     if (!penalty && c.tangential_stiffness)
-        f.wrong("contact.tangential_stiffness",
-                "contact.tangential_stiffness_N_m3 is given, but contact.enforcement is not \"penalty\".",
-                "enforcement = \"penalty\" with tangential_stiffness_N_m3",
-                "write  enforcement = \"penalty\"  or delete tangential_stiffness_N_m3");
+        wrong_without(f, "contact", "tangential_stiffness", "_N_m3", "enforcement", "penalty");
     if (c.enforcement != ContactEnforcement::slip_tolerance && f.given("contact.slip_tolerance"))
-        f.wrong("contact.slip_tolerance",
-                "contact.slip_tolerance is given, but contact.enforcement is not \"slip-tolerance\".",
-                "enforcement = \"slip-tolerance\" with slip_tolerance",
-                "write  enforcement = \"slip-tolerance\"  or delete slip_tolerance");
+        wrong_without(f, "contact", "slip_tolerance", "", "enforcement", "slip-tolerance");
     if (c.sliding != JointPath::finite && f.given("contact.max_slip"))
-        f.wrong("contact.max_slip", "contact.max_slip_m is given, but contact.sliding is not \"finite\".",
-                "sliding = \"finite\" with max_slip_m", "write  sliding = \"finite\"  or delete max_slip_m");
+        wrong_without(f, "contact", "max_slip", "_m", "sliding", "finite");
     check_normal_contact(c, f);
 }
 
@@ -231,13 +287,11 @@ void note_weak_cohesion(const Contact& c, const std::string& table, Findings& f)
     if (!(c.cohesion > 0.0) || !(c.bond.tensile_strength > 0.0)) return;
     const double least = c.friction * c.bond.tensile_strength;
     if (c.cohesion >= least) return;
-    Diagnostic note;
-    note.problem = fmt::format("{}.cohesion_kPa = {} is less than friction x tensile_strength_kPa = {}.", table,
-                               six_digits(1e-3 * c.cohesion), six_digits(1e-3 * least));
-    note.expected =
-        "cohesion of at least mu f_t: the bond's strength is an ellipse through both, beside Coulomb's line";
-    note.fix = "check both strengths";
-    f.note(table + ".cohesion", note);
+    f.note(table + ".cohesion",
+           fmt::format("{}.cohesion_kPa = {} is less than friction x tensile_strength_kPa = {}.", table,
+                       six_digits(1e-3 * c.cohesion), six_digits(1e-3 * least)),
+           "cohesion of at least mu f_t: the bond's strength is an ellipse through both, beside Coulomb's line",
+           "check both strengths");
 }
 
 /// The rigid block, which stands beside every answer, is a series in forces over its slip or in friction over its rate.
@@ -251,8 +305,7 @@ void check_together(const Scene& s, Findings& f)
         "delete kinetic_friction_ratio with its keys, or the [[anchor]]");
 }
 
-} // namespace
-
+/// Bond of one plane. @param table  as of check_strength()
 void check_bond(const Contact& c, const std::string& table, Findings& f)
 {
     const auto key = [&table](const char* name) { return table + "." + name; };
@@ -298,6 +351,8 @@ void check_bond(const Contact& c, const std::string& table, Findings& f)
     note_weak_cohesion(c, table, f);
 }
 
+} // namespace
+
 void check_joint_laws(const Scene& s, Findings& f)
 {
     check_bond(s.contact, "contact", f);
@@ -311,36 +366,14 @@ void check_joint_laws(const Scene& s, Findings& f)
     if (!modulus) return; // no finite elements
     const CarriedBond carried = carried_bond(s.contact, *modulus, length);
     if (!carried.lowered) return;
-    Diagnostic note;
-    note.problem = fmt::format(
-        "elements of {} m on the base are longer than a quarter of the bond's process zone: FE runs "
-        "with tensile strength {} kPa and cohesion {} kPa, fracture energies kept.",
-        six_digits(length), six_digits(1e-3 * carried.tensile_strength), six_digits(1e-3 * carried.cohesion));
-    note.expected = fmt::format("mesh.contact_size_m of at most {} (E' G/(4 f^2), Bazant & Oh 1983)",
-                                six_digits(bond_element_length(s.contact, *modulus)));
-    note.fix = "give a smaller mesh.contact_size_m; total work and end strength are right as it is, the peak is lower";
-    f.note("contact", note);
-}
-
-void check_rate(const Contact& c, const std::string& table, Findings& f)
-{
-    const auto key = [&table](const char* name) { return table + "." + name; };
-    if (c.rate.active() && !c.rate.characteristic_rate)
-        f.wrong(key("kinetic_friction_ratio"),
-                fmt::format("{} = {} without {}.", key("kinetic_friction_ratio"), shortest(c.rate.kinetic_ratio),
-                            key("characteristic_rate_m_s")),
-                "both: the rate v_c says how fast friction goes from mu to mu_k",
-                "add  characteristic_rate_m_s = 0.01  , or delete kinetic_friction_ratio");
-    if (c.rate.active()) return;
-    for (const auto& [name, unit] : {std::pair("characteristic_rate", "_m_s"), std::pair("relaxation_time", "_s"),
-                                     std::pair("relaxation_slip", "_m")})
-        if (f.given(key(name)))
-            f.wrong(
-                key(name),
-                fmt::format("{}{} is given, but {} is {}.", key(name), unit, key("kinetic_friction_ratio"),
-                            f.given(key("kinetic_friction_ratio")) ? "1: friction does not depend on the rate" : "not"),
-                "the keys of friction over the rate together, with a ratio that is not 1",
-                fmt::format("add  kinetic_friction_ratio = 0.8  , or delete {}{}", name, unit));
+    f.note("contact",
+           fmt::format("elements of {} m on the base are longer than a quarter of the bond's process zone: FE runs "
+                       "with tensile strength {} kPa and cohesion {} kPa, fracture energies kept.",
+                       six_digits(length), six_digits(1e-3 * carried.tensile_strength),
+                       six_digits(1e-3 * carried.cohesion)),
+           fmt::format("mesh.contact_size_m of at most {} (E' G/(4 f^2), Bazant & Oh 1983)",
+                       six_digits(bond_element_length(s.contact, *modulus))),
+           "give a smaller mesh.contact_size_m; total work and end strength are right as it is, the peak is lower");
 }
 
 void check_rate_methods(const Scene& s, Findings& f)

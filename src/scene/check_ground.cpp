@@ -6,6 +6,7 @@
 #include "scene/section.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <set>
@@ -15,12 +16,24 @@ namespace damslip::checks {
 
 namespace {
 
+const char* written(TimeScheme scheme)
+{
+    constexpr std::array words{"auto", "hht", "newmark", "central-difference",
+                               "modal"}; // in the order of the enumeration
+    return words[static_cast<std::size_t>(scheme)];
+}
+
+/// Neither takes dashpots nor rock that lets waves out, nor an earthquake that goes on from another.
+bool is_modal_or_explicit(TimeScheme scheme)
+{
+    return scheme == TimeScheme::modal || scheme == TimeScheme::central_difference;
+}
+
 void check_radiating_rock(const Scene& s, Findings& f)
 {
-    if (s.time.scheme == TimeScheme::modal || s.time.scheme == TimeScheme::central_difference)
+    if (is_modal_or_explicit(s.time.scheme))
         f.wrong("foundation.boundary",
-                fmt::format("foundation.boundary = \"absorbing\" with time.scheme = \"{}\".",
-                            s.time.scheme == TimeScheme::modal ? "modal" : "central-difference"),
+                fmt::format("foundation.boundary = \"absorbing\" with time.scheme = \"{}\".", written(s.time.scheme)),
                 "hht, newmark or auto: rock that lets waves out has no real modes and no stable explicit step",
                 "write  scheme = \"hht\"  in [time], or  mass = \"massless\"  in [foundation]");
 }
@@ -103,11 +116,9 @@ void check_rock(const Scene& s, Findings& f)
                 fmt::format("foundation.mass = \"with-mass\" with mesh.file = \"{}\".", s.mesh.file->string()),
                 "the program's own mesh of the rock box, whose sides are upright and whose nodes face the dam's",
                 "delete mesh.file, or write  mass = \"massless\"  in [foundation]");
-    if (rock_edges_are_viscous(s) &&
-        (s.time.scheme == TimeScheme::modal || s.time.scheme == TimeScheme::central_difference))
+    if (rock_edges_are_viscous(s) && is_modal_or_explicit(s.time.scheme))
         f.wrong("foundation.boundary",
-                fmt::format("foundation.boundary = \"viscous\" with time.scheme = \"{}\".",
-                            s.time.scheme == TimeScheme::modal ? "modal" : "central-difference"),
+                fmt::format("foundation.boundary = \"viscous\" with time.scheme = \"{}\".", written(s.time.scheme)),
                 "hht, newmark or auto: dashpots have no real modes and are no Rayleigh damping",
                 "write  scheme = \"hht\"  in [time], or  boundary = \"fixed\"  in [foundation]");
     if (rock_edges_are_viscous(s) && base_inclination(s.section) != 0.0)
@@ -144,23 +155,6 @@ void check_mesh_file(const Scene& s, Findings& f, FileCheck files)
 }
 
 namespace {
-
-const char* written(TimeScheme scheme)
-{
-    switch (scheme) {
-    case TimeScheme::automatic:
-        return "auto";
-    case TimeScheme::hht:
-        return "hht";
-    case TimeScheme::newmark:
-        return "newmark";
-    case TimeScheme::central_difference:
-        return "central-difference";
-    case TimeScheme::modal:
-        break;
-    }
-    return "modal";
-}
 
 /// Keys that belong to another scheme than the chosen one.
 void check_scheme(const Scene& s, Findings& f)
@@ -248,42 +242,40 @@ void check_flexible_block(const Scene& s, Findings& f)
 {
     if (!s.flexible_block) return;
     const FlexibleMass& m = *s.flexible_block;
-    const auto wrong = [&f](const char* key, std::string problem, std::string expected, std::string fix) {
-        f.wrong(key, std::move(problem), std::move(expected), std::move(fix));
-    };
     if (m.height.has_value() != m.shear_velocity.has_value())
-        wrong(m.height ? "flexible_block.height" : "flexible_block.shear_velocity",
-              "flexible_block.height_m and shear_velocity_m_s are not both given.", "both or neither", "add the other");
+        f.wrong(m.height ? "flexible_block.height" : "flexible_block.shear_velocity",
+                "flexible_block.height_m and shear_velocity_m_s are not both given.", "both or neither",
+                "add the other");
     if (m.height && m.shear_velocity && (m.period || m.of_modes))
-        wrong("flexible_block.period",
-              "flexible_block.period_s is given together with height_m and shear_velocity_m_s.",
-              "one of them: T_s = 4 H/V_s of the column", "delete period_s");
+        f.wrong("flexible_block.period",
+                "flexible_block.period_s is given together with height_m and shear_velocity_m_s.",
+                "one of them: T_s = 4 H/V_s of the column", "delete period_s");
     for (const auto& [key, given] : {std::pair{"flexible_block.base_velocity", m.base_velocity},
                                      {"flexible_block.reference_strain", m.reference_strain}})
         if (given && !m.height)
-            wrong(key, fmt::format("{} is given without a column.", key),
-                  "height_m and shear_velocity_m_s of the column", "add them, or delete this key");
+            f.wrong(key, fmt::format("{} is given without a column.", key),
+                    "height_m and shear_velocity_m_s of the column", "add them, or delete this key");
     if (!m.period && !m.of_modes && !m.height && !(s.regressions.period > 0.0))
-        wrong("flexible_block", "flexible_block.period_s is missing.",
-              "a period, or regressions.period_s, or \"modes\"", "add  period_s = 0.3  to [flexible_block]");
+        f.wrong("flexible_block", "flexible_block.period_s is missing.",
+                "a period, or regressions.period_s, or \"modes\"", "add  period_s = 0.3  to [flexible_block]");
     if (m.modal_load.has_value() != m.modal_mass.has_value())
-        wrong(m.modal_load ? "flexible_block.modal_load" : "flexible_block.modal_mass",
-              "flexible_block.modal_load_kg_m and modal_mass_kg_m are not both given.", "both or neither",
-              "add the other");
+        f.wrong(m.modal_load ? "flexible_block.modal_load" : "flexible_block.modal_mass",
+                "flexible_block.modal_load_kg_m and modal_mass_kg_m are not both given.", "both or neither",
+                "add the other");
     const int ways = m.mass_ratio.has_value() + m.shape_exponent.has_value() + m.modal_mass.has_value();
     const char* first = m.mass_ratio       ? "flexible_block.mass_ratio"
                         : m.shape_exponent ? "flexible_block.shape_exponent"
                                            : "flexible_block.modal_mass";
     if (ways > 1)
-        wrong(first, "flexible_block gives the mass ratio in more than one way.",
-              "one of mass_ratio, shape_exponent, modal_load_kg_m with modal_mass_kg_m", "delete the others");
+        f.wrong(first, "flexible_block gives the mass ratio in more than one way.",
+                "one of mass_ratio, shape_exponent, modal_load_kg_m with modal_mass_kg_m", "delete the others");
     if (m.of_modes && ways > 0)
-        wrong(first, fmt::format("{} is given together with flexible_block.period_s = \"modes\".", first),
-              "the modes of the finite-element model give the mass ratio too",
-              "delete it, or give the period as a number");
+        f.wrong(first, fmt::format("{} is given together with flexible_block.period_s = \"modes\".", first),
+                "the modes of the finite-element model give the mass ratio too",
+                "delete it, or give the period as a number");
     if (m.of_modes && !s.dam.young_modulus)
-        wrong("flexible_block.period", "flexible_block.period_s = \"modes\" needs dam.young_modulus_GPa.",
-              "Young's modulus of the dam", "add  young_modulus_GPa = 25  to [dam]");
+        f.wrong("flexible_block.period", "flexible_block.period_s = \"modes\" needs dam.young_modulus_GPa.",
+                "Young's modulus of the dam", "add  young_modulus_GPa = 25  to [dam]");
 }
 
 void check_motion(const Scene& s, Findings& f, FileCheck files)
@@ -419,7 +411,7 @@ void check_sequence(const Scene& s, Findings& f)
                     s.motion.records.empty() ? "names of records; the scene has none"
                                              : "names of records: " + in_quotes(s.motion.records),
                     "correct the name, or give a record this  name");
-    const auto refuse = [&](const char* what, const char* fix) {
+    const auto refuse = [&](const std::string& what, const char* fix) {
         f.wrong("motion.sequence", fmt::format("motion.sequence with {}.", what),
                 "a sequence for the rigid block on its base, and for finite elements in time", fix);
     };
@@ -430,9 +422,8 @@ void check_sequence(const Scene& s, Findings& f)
                "write  after = \"unchanged\"  in [uplift] or  sliding = \"small\"  in [contact]");
     if (s.wedge) refuse("[wedge]", "delete sequence: each record then shakes the wedge as it is");
     if (s.flexible_block) refuse("[flexible_block]", "delete [flexible_block], or sequence");
-    if (s.time.scheme == TimeScheme::central_difference || s.time.scheme == TimeScheme::modal)
-        refuse(s.time.scheme == TimeScheme::modal ? "time.scheme = \"modal\"" : "time.scheme = \"central-difference\"",
-               "write  scheme = \"hht\"  in [time]");
+    if (is_modal_or_explicit(s.time.scheme))
+        refuse(fmt::format("time.scheme = \"{}\"", written(s.time.scheme)), "write  scheme = \"hht\"  in [time]");
     if (s.sliding.scheme == SlidingScheme::slammer)
         refuse("sliding.scheme = \"slammer\"", "write  scheme = \"exact\"  in [sliding]");
 }

@@ -230,11 +230,10 @@ void check_keys_of_rule(const JointWaterLaw& law, Findings& f)
         for (const char* key : {"joint_clearance", "water_viscosity", "cavitation_pressure", "wet_end"})
             if (f.given(std::string("uplift.") + key)) idle.emplace_back(key, "reynolds");
     for (const auto& [key, rule] : idle) {
-        Diagnostic note;
-        note.problem = fmt::format("uplift.{} is not read with uplift.opening = \"{}\".", key, word(law.opening));
-        note.expected = fmt::format("opening = \"{}\", the only rule that reads it", rule);
-        note.fix = fmt::format("keep it for  sweep --opening-water {} , or delete it", rule);
-        f.note("uplift." + key, note);
+        f.note("uplift." + key,
+               fmt::format("uplift.{} is not read with uplift.opening = \"{}\".", key, word(law.opening)),
+               fmt::format("opening = \"{}\", the only rule that reads it", rule),
+               fmt::format("keep it for  sweep --opening-water {} , or delete it", rule));
     }
 }
 

@@ -1,8 +1,8 @@
 #include "scene/effect_plan.hpp"
 #include "scene/rock_mass.hpp"
+#include "scene/word_rows.hpp"
 
 #include <array>
-#include <cassert>
 
 namespace damslip {
 
@@ -23,28 +23,20 @@ std::vector<EffectRow> plane_effects();
 
 std::span<const EffectRow> effect_rows()
 {
-    static const std::vector<EffectRow> rows = [] {
-        std::vector<EffectRow> all;
-        for (auto* topic : {
-                 load_effects,
-                 uplift_effects,
-                 water_effects,
-                 strength_effects,
-                 motion_effects,
-                 rock_effects,
-                 contact_effects,
-                 joint_effects,
-                 anchor_effects,
-                 opening_water_effects,
-                 rate_effects,
-                 plane_effects,
-             })
-            for (EffectRow& row : topic()) {
-                assert(!row.named || *row.named == Effect(all.size()));
-                all.push_back(std::move(row));
-            }
-        return all;
-    }();
+    static const std::vector<EffectRow> rows = rows_of_files<Effect, EffectRow>({
+        load_effects,
+        uplift_effects,
+        water_effects,
+        strength_effects,
+        motion_effects,
+        rock_effects,
+        contact_effects,
+        joint_effects,
+        anchor_effects,
+        opening_water_effects,
+        rate_effects,
+        plane_effects,
+    });
     return rows;
 }
 

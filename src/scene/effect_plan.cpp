@@ -9,6 +9,20 @@ const EffectRow& effect_row(Effect effect)
     return effect_rows()[std::size_t(effect)];
 }
 
+RemovalAnswer EffectRow::remove(Scene scene, const SeepagePoints& points) const
+{
+    if (answer) return answer(std::move(scene), points);
+    take_out(scene);
+    return Removal{std::move(scene), instead};
+}
+
+std::optional<Effect> EffectRow::whole(const EffectPlan& plan) const
+{
+    const auto found = std::ranges::find_if(part_of, [&](Effect effect) { return plan.on(effect); });
+    if (found != part_of.end()) return *found;
+    return part_of.empty() ? std::nullopt : std::optional(part_of.back());
+}
+
 bool EffectPlan::on(Effect effect) const
 {
     return std::any_of(effects.begin(), effects.end(),
@@ -31,6 +45,7 @@ Scene called_for(const EffectPlan& plan, Scene scene)
 {
     for (const PlannedEffect& e : plan.effects) {
         const EffectRow& row = effect_row(e.effect);
+        if (!e.on && row.taken_out_when_off) row.take_out(scene);
         if (!e.on && row.leave_out) row.leave_out(scene, plan);
     }
     return scene;

@@ -86,6 +86,12 @@ struct Decision {
     std::string cost;
 };
 
+/// On for one reason at a cost, or off for another.
+inline Decision decided(bool on, std::string yes, std::string no, std::string cost)
+{
+    return on ? Decision{true, std::move(yes), std::move(cost)} : Decision{false, std::move(no), ""};
+}
+
 /// A scene without an effect, and what it has in its place: "uplift.model = "curtain", the printed profile".
 struct Removal {
     Scene scene;
@@ -104,17 +110,24 @@ struct EffectRow {
     std::string name; ///< as printed: "uplift"
     /// Does a run of this method take the effect into account?
     Decision (*decide)(const Scene&, Method);
-    /// The scene without the effect, every other key as it was; a scene that a file could hold. Asked only where the
-    /// effect is on. Points: the profile of uplift.model = "seepage", for a base without rock.
-    RemovalAnswer (*remove)(Scene, const SeepagePoints&);
-    /// Takes what belongs to an effect that is off out of the scene, for called_for(); null: nothing to take out.
+    /// Takes the effect out of a scene that has it, every other key as it was; a file could hold the scene that is left.
+    void (*take_out)(Scene&) = nullptr;
+    const char* instead = ""; ///< what that scene has in its place: "no [silt]"
+    /// In place of these two where the answer depends on the scene. Points: the profile of uplift.model = "seepage", for a base
+    /// without rock.
+    RemovalAnswer (*answer)(Scene, const SeepagePoints&) = nullptr;
+    bool taken_out_when_off = false; ///< take_out is what called_for() asks for, too
+    /// Takes what belongs to an effect that is off out of the scene, for called_for(); null: nothing more to take out.
     void (*leave_out)(Scene&, const EffectPlan&) = nullptr;
-    /// The effect this one is part of and goes with; null: none.
-    Effect (*part_of)(const EffectPlan&) = nullptr;
+    std::vector<Effect> part_of =
+        {}; ///< it goes with the first of them that is on, else with the last; empty: with none
     /// The enumerator, for effects the program asks for by name.
     std::optional<Effect> named = {};
     /// Has the scene what the effect belongs to? Plans of other scenes do not list it. null: every plan does.
     bool (*concerns)(const Scene&) = nullptr;
+
+    RemovalAnswer remove(Scene scene, const SeepagePoints& points) const; ///< asked only where the effect is on
+    std::optional<Effect> whole(const EffectPlan& plan) const;            ///< the effect it goes with; none: with none
 };
 
 /// All rows; the place of a row is the value of its Effect.
@@ -133,6 +146,10 @@ struct OtherModel {
 };
 std::span<const OtherModel> other_models();
 const OtherModel* find_other_model(std::string_view level_word); ///< null: none has that word
+
+// Rows that a wedge shares with a dam.
+Decision decide_vertical_motion(const Scene& scene, const char* cost);
+Decision decide_run_out(const Scene& scene, Method method);
 
 /// EffectRow::decide for a scene of a rock wedge. @pre scene.wedge
 Decision decide_of_wedge(Effect effect, const Scene& scene);

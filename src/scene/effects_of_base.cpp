@@ -14,7 +14,7 @@ namespace {
 Decision of_finite_elements(Method method, bool on, std::string yes, std::string no, std::string cost)
 {
     if (method == Method::rigid_block) return {false, "rigid block", ""};
-    return on ? Decision{true, std::move(yes), std::move(cost)} : Decision{false, std::move(no), ""};
+    return decided(on, std::move(yes), std::move(no), std::move(cost));
 }
 
 Decision decide_damping(const Scene& s, Method method)
@@ -23,18 +23,6 @@ Decision decide_damping(const Scene& s, Method method)
         return {true, "lifts.amplification = \"modes\"", "none"};
     return of_finite_elements(method, s.damping.method != DampingMethod::none, "damping.method",
                               "damping.method = \"none\"", "a matrix with the pattern of the stiffness");
-}
-
-Decision decide_separation(const Scene& s, Method method)
-{
-    return of_finite_elements(method, s.contact.separation == JointOpening::allowed, "contact.separation = \"allowed\"",
-                              "contact.separation = \"none\"", "a second condition of each pair");
-}
-
-Decision decide_finite_sliding(const Scene& s, Method method)
-{
-    return of_finite_elements(method, s.contact.sliding == JointPath::finite, "contact.sliding = \"finite\"",
-                              "contact.sliding = \"small\"", "the pairs of each place the dam slides to");
 }
 
 Decision decide_yielding_contact(const Scene& s, Method method)
@@ -77,27 +65,12 @@ void delete_lift_joints(Scene& s)
     std::erase_if(s.anchors, [](const Anchor& anchor) { return !anchor.joint.empty(); });
 }
 
-RemovalAnswer without_damping(Scene s, const SeepagePoints&)
-{
-    s.damping.method = DampingMethod::none;
-    s.damping.mass_coefficient.reset();
-    s.damping.stiffness_coefficient.reset();
-    return Removal{s, "damping.method = \"none\""};
-}
-
 RemovalAnswer without_separation(Scene s, const SeepagePoints&)
 {
     if (s.contact.normal == NormalContact::exponential)
         return Stays{"exponential contact cannot pull; see contact that gives way"};
     s.contact.separation = JointOpening::none;
     return Removal{s, "contact.separation = \"none\": the joint pulls without shear"};
-}
-
-RemovalAnswer without_finite_sliding(Scene s, const SeepagePoints&)
-{
-    s.contact.sliding = JointPath::small;
-    s.contact.max_slip = Contact{}.max_slip;
-    return Removal{s, "contact.sliding = \"small\": nodes stay opposite each other"};
 }
 
 } // namespace
@@ -107,36 +80,58 @@ std::vector<EffectRow> contact_effects()
     return {
         {.name = "structural damping",
          .decide = decide_damping,
-         .remove = without_damping,
+         .take_out =
+             [](Scene& s) {
+                 s.damping.method = DampingMethod::none;
+                 s.damping.mass_coefficient.reset();
+                 s.damping.stiffness_coefficient.reset();
+             },
+         .instead = "damping.method = \"none\"",
          .leave_out = [](Scene& s, const EffectPlan&) { s.damping.method = DampingMethod::none; },
          .named = Effect::structural_damping},
-        {.name = "separation", .decide = decide_separation, .remove = without_separation, .named = Effect::separation},
+        {.name = "separation",
+         .decide =
+             [](const Scene& s, Method method) {
+                 return of_finite_elements(method, s.contact.separation == JointOpening::allowed,
+                                           "contact.separation = \"allowed\"", "contact.separation = \"none\"",
+                                           "a second condition of each pair");
+             },
+         .answer = without_separation,
+         .named = Effect::separation},
         {.name = "finite sliding",
-         .decide = decide_finite_sliding,
-         .remove = without_finite_sliding,
+         .decide =
+             [](const Scene& s, Method method) {
+                 return of_finite_elements(method, s.contact.sliding == JointPath::finite,
+                                           "contact.sliding = \"finite\"", "contact.sliding = \"small\"",
+                                           "the pairs of each place the dam slides to");
+             },
+         .take_out =
+             [](Scene& s) {
+                 s.contact.sliding = JointPath::small;
+                 s.contact.max_slip = Contact{}.max_slip;
+             },
+         .instead = "contact.sliding = \"small\": nodes stay opposite each other",
          .named = Effect::finite_sliding},
         {.name = "contact that gives way",
          .decide = decide_yielding_contact,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             return Removal{with_exact_contact(s).value_or(s), "rigid sticking, hard contact"};
-         },
+         .take_out = [](Scene& s) { s = with_exact_contact(s).value_or(s); },
+         .instead = "rigid sticking, hard contact",
          .named = Effect::yielding_contact},
         {.name = "lift joints",
          .decide = decide_lift_joints,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             delete_lift_joints(s);
-             return Removal{s, "no [[lift_joint]]: a dam of one piece"};
-         },
-         .leave_out = [](Scene& s, const EffectPlan&) { delete_lift_joints(s); },
+         .take_out = delete_lift_joints,
+         .instead = "no [[lift_joint]]: a dam of one piece",
+         .taken_out_when_off = true,
          .named = Effect::lift_joints},
         {.name = "water in lift joints",
          .decide = decide_lift_joint_water,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             for (std::vector<LiftJoint>* joints : {&s.lift_joints, &s.tied_lifts})
-                 for (LiftJoint& joint : *joints) joint.water = JointWater::none;
-             return Removal{s, "lift_joint.water = \"none\""};
-         },
-         .part_of = [](const EffectPlan&) { return Effect::lift_joints; },
+         .take_out =
+             [](Scene& s) {
+                 for (std::vector<LiftJoint>* joints : {&s.lift_joints, &s.tied_lifts})
+                     for (LiftJoint& joint : *joints) joint.water = JointWater::none;
+             },
+         .instead = "lift_joint.water = \"none\"",
+         .part_of = {Effect::lift_joints},
          .named = Effect::lift_joint_water},
     };
 }
@@ -168,21 +163,22 @@ std::vector<EffectRow> strength_effects()
 {
     return {
         {.name = "cohesion",
-         .decide = [](const Scene& s, Method) -> Decision {
-             return {s.contact.cohesion > 0,
-                     s.contact.cohesion > 0 ? "contact.cohesion_kPa > 0" : "contact.cohesion_kPa = 0",
-                     "lost at first slip: one event"};
-         },
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.contact.cohesion = 0.0;
-             s.contact.bond = {};
-             return Removal{s, "contact.cohesion_kPa = 0"};
-         },
+         .decide =
+             [](const Scene& s, Method) {
+                 return decided(s.contact.cohesion > 0, "contact.cohesion_kPa > 0", "contact.cohesion_kPa = 0",
+                                "lost at first slip: one event");
+             },
+         .take_out =
+             [](Scene& s) {
+                 s.contact.cohesion = 0.0;
+                 s.contact.bond = {};
+             },
+         .instead = "contact.cohesion_kPa = 0",
          .leave_out = [](Scene& s, const EffectPlan&) { s.contact.cohesion = 0.0; },
          .named = Effect::cohesion},
         {.name = "strength loss with slip",
          .decide = decide_strength_loss,
-         .remove = without_strength_loss,
+         .answer = without_strength_loss,
          .leave_out =
              [](Scene& s, const EffectPlan&) {
                  s.contact.residual_friction.reset();
@@ -190,11 +186,12 @@ std::vector<EffectRow> strength_effects()
              },
          .named = Effect::strength_loss},
         {.name = "inclined base",
-         .decide = [](const Scene& s, Method) -> Decision {
-             return {base_inclination(s.section) != 0,
-                     base_inclination(s.section) != 0 ? "the toe is not level with the heel" : "level base", "none"};
-         },
-         .remove = [](Scene, const SeepagePoints&) -> RemovalAnswer {
+         .decide =
+             [](const Scene& s, Method) {
+                 return decided(base_inclination(s.section) != 0, "the toe is not level with the heel", "level base",
+                                "none");
+             },
+         .answer = [](Scene, const SeepagePoints&) -> RemovalAnswer {
              return Stays{"geometry: a level base is another dam"};
          },
          .named = Effect::inclined_base},
@@ -241,25 +238,22 @@ std::vector<EffectRow> rate_effects()
     return {
         {.name = "friction over the rate",
          .decide = decide_rate,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             leave_out_rate(s);
-             return Removal{s, "friction of rest at any rate"};
-         },
-         .leave_out = [](Scene& s, const EffectPlan&) { leave_out_rate(s); }},
+         .take_out = leave_out_rate,
+         .instead = "friction of rest at any rate",
+         .taken_out_when_off = true},
         {.name = "restitution",
          .decide = decide_restitution,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.contact.restitution = 0.0;
-             return Removal{s, "contact.restitution = 0: impacts do not rebound"};
-         },
-         .leave_out = [](Scene& s, const EffectPlan&) { s.contact.restitution = 0.0; }},
+         .take_out = [](Scene& s) { s.contact.restitution = 0.0; },
+         .instead = "contact.restitution = 0: impacts do not rebound",
+         .taken_out_when_off = true},
         {.name = "sequence",
-         .decide = [](const Scene& s, Method) -> Decision {
-             if (s.motion.sequence.empty()) return {false, "no motion.sequence", ""};
-             return {true, fmt::format("motion.sequence of {} records", s.motion.sequence.size()),
-                     "the run to rest between the records"};
-         },
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+         .decide =
+             [](const Scene& s, Method) {
+                 return decided(!s.motion.sequence.empty(),
+                                fmt::format("motion.sequence of {} records", s.motion.sequence.size()),
+                                "no motion.sequence", "the run to rest between the records");
+             },
+         .answer = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
              s.motion.sequence.clear();
              s.motion.sequence_pause = 0.0;
              return Removal{s, "no motion.sequence: each record shakes the dam as it was"};
@@ -288,12 +282,6 @@ void lose_together(Scene& s)
     for (LiftJoint& joint : s.lift_joints) joint.strength.bond = {};
 }
 
-RemovalAnswer without_bond(Scene s, const SeepagePoints&)
-{
-    lose_together(s);
-    return Removal{std::move(s), "bond = \"together\", no tensile strength"};
-}
-
 } // namespace
 
 std::vector<EffectRow> joint_effects()
@@ -301,7 +289,8 @@ std::vector<EffectRow> joint_effects()
     return {
         {.name = "bond fracture",
          .decide = decide_bond,
-         .remove = without_bond,
+         .take_out = lose_together,
+         .instead = "bond = \"together\", no tensile strength",
          .leave_out =
              [](Scene& s, const EffectPlan&) {
                  if (any_bond(s)) lose_together(s);
@@ -329,11 +318,9 @@ std::vector<EffectRow> anchor_effects()
 {
     return {{.name = "anchors",
              .decide = decide_anchors,
-             .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-                 s.anchors.clear();
-                 return Removal{s, "no [[anchor]]"};
-             },
-             .leave_out = [](Scene& s, const EffectPlan&) { s.anchors.clear(); }}};
+             .take_out = [](Scene& s) { s.anchors.clear(); },
+             .instead = "no [[anchor]]",
+             .taken_out_when_off = true}};
 }
 
 namespace {
@@ -343,8 +330,7 @@ Decision water_on_planes(const RockWedge& w)
     if (w.water == WedgeWater::full) return {true, "wedge.water = \"full\"", "one force on each plane"};
     const bool given = std::any_of(w.planes.begin(), w.planes.end(),
                                    [](const RockPlane& p) { return p.water_pressure.value_or(0.0) > 0.0; });
-    return given ? Decision{true, "wedge.plane.water_pressure_kPa", "one force on each plane"}
-                 : Decision{false, "wedge.water = \"dry\"", ""};
+    return decided(given, "wedge.plane.water_pressure_kPa", "wedge.water = \"dry\"", "one force on each plane");
 }
 
 bool cohesive(const RockWedge& w)
@@ -355,16 +341,8 @@ bool cohesive(const RockWedge& w)
 Decision wedge_strength_loss(const RockWedge& w)
 {
     if (!cohesive(w)) return {false, "no wedge.plane.cohesion_kPa to lose", ""};
-    return w.cohesion_lost_at_slip
-               ? Decision{true, "wedge.cohesion_lost_at_slip = true", "strength stages are events of the integration"}
-               : Decision{false, "wedge.cohesion_lost_at_slip = false", ""};
-}
-
-Decision wedge_vertical_motion(const Scene& s)
-{
-    if (!any_vertical_record(s)) return {false, "no record has a vertical component", ""};
-    return {s.motion.vertical, s.motion.vertical ? "records have vertical components" : "motion.vertical = false",
-            "the yield acceleration varies in time"};
+    return decided(w.cohesion_lost_at_slip, "wedge.cohesion_lost_at_slip = true", "wedge.cohesion_lost_at_slip = false",
+                   "strength stages are events of the integration");
 }
 
 } // namespace
@@ -374,28 +352,25 @@ Decision decide_of_wedge(Effect effect, const Scene& s)
     const RockWedge& w = *s.wedge;
     switch (effect) {
     case Effect::user_forces:
-        return {!w.forces.empty(),
-                w.forces.empty() ? "no [[wedge.force]]" : fmt::format("{} [[wedge.force]]", w.forces.size()),
-                "one force each"};
+        return decided(!w.forces.empty(), fmt::format("{} [[wedge.force]]", w.forces.size()), "no [[wedge.force]]",
+                       "one force each");
     case Effect::uplift:
         return water_on_planes(w);
     case Effect::cohesion:
-        return {cohesive(w), cohesive(w) ? "wedge.plane.cohesion_kPa > 0" : "no wedge.plane.cohesion_kPa",
-                "one force along the way of sliding"};
+        return decided(cohesive(w), "wedge.plane.cohesion_kPa > 0", "no wedge.plane.cohesion_kPa",
+                       "one force along the way of sliding");
     case Effect::strength_loss:
         return wedge_strength_loss(w);
     case Effect::inclined_base:
         return {true, "[wedge]: two planes, the way of sliding is found", "one look at four cases"};
     case Effect::vertical_motion:
-        return wedge_vertical_motion(s);
+        return decide_vertical_motion(s, "the yield acceleration varies in time");
     case Effect::lift_off:
         return {false, "the way of sliding at the yield is kept; a note says where another would start", ""};
     case Effect::upstream_sliding:
         return {false, "a wedge slides one way; sliding up the slope is not followed", ""};
     case Effect::run_out:
-        return {s.sliding.run_out_max > 0,
-                s.sliding.run_out_max > 0 ? "sliding.run_out_max_s > 0" : "sliding.run_out_max_s = 0",
-                "until it rests, only if still sliding at the record's end"};
+        return decide_run_out(s, Method::rigid_block);
     default:
         return {false, "a rock wedge has none", ""};
     }

@@ -86,7 +86,7 @@ std::vector<EffectRow> rock_effects()
     return {
         {.name = "rock flexibility",
          .decide = decide_rock_flexibility,
-         .remove = without_rock,
+         .answer = without_rock,
          .leave_out =
              [](Scene& s, const EffectPlan& plan) { // the rigid block: seepage needs the rock box
                  if (plan.method != Method::finite_elements) return;
@@ -96,51 +96,41 @@ std::vector<EffectRow> rock_effects()
          .named = Effect::rock_flexibility},
         {.name = "curtain stiffness",
          .decide = decide_curtain_stiffness,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.curtain->young_modulus.reset();
-             return Removal{s, "the curtain's E and nu are the rock's"};
-         },
-         .part_of = [](const EffectPlan&) { return Effect::rock_flexibility; },
+         .take_out = [](Scene& s) { s.curtain->young_modulus.reset(); },
+         .instead = "the curtain's E and nu are the rock's",
+         .part_of = {Effect::rock_flexibility},
          .named = Effect::curtain_stiffness},
         {.name = "curtain sealing",
          .decide = decide_curtain_sealing,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+         .answer = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
              s.curtain->intact = false;
              return Removal{s, s.uplift->model == UpliftModel::seepage
                                    ? "curtain.intact = false: as permeable as the rock"
                                    : "curtain.intact = false: linear uplift"};
          },
-         .part_of = [](const EffectPlan&) { return Effect::uplift; },
+         .part_of = {Effect::uplift},
          .named = Effect::curtain_sealing},
         {.name = "rock inertia",
          .decide = decide_rock_inertia,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             return Removal{with_massless_rock(std::move(s)), "foundation.mass = \"massless\""};
-         },
-         .leave_out = [](Scene& s, const EffectPlan&) { s = with_massless_rock(std::move(s)); },
-         .part_of = [](const EffectPlan&) { return Effect::rock_flexibility; },
+         .take_out = [](Scene& s) { s = with_massless_rock(std::move(s)); },
+         .instead = "foundation.mass = \"massless\"",
+         .taken_out_when_off = true,
+         .part_of = {Effect::rock_flexibility},
          .named = Effect::rock_inertia},
         {.name = "radiation into the rock",
          .decide = decide_rock_radiation,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+         .answer = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
              if (rock_radiates(s))
                  return Stays{"rock with mass whose waves stay is a box that resonates: remove the rock's inertia"};
              s.foundation->boundary = RockBoundary::fixed;
              return Removal{s, "foundation.boundary = \"fixed\": the record moves the box, waves come back"};
          },
-         .part_of = [](const EffectPlan&) { return Effect::rock_inertia; },
+         .part_of = {Effect::rock_inertia},
          .named = Effect::rock_radiation},
     };
 }
 
 namespace {
-
-Decision decide_vertical_motion(const Scene& s, Method)
-{
-    if (!any_vertical_record(s)) return {false, "no record has a vertical component", ""};
-    return {s.motion.vertical, s.motion.vertical ? "records have vertical components" : "motion.vertical = false",
-            "one more sample per step; the yield acceleration varies in time"};
-}
 
 Decision decide_lift_off(const Scene& s, Method method)
 {
@@ -155,8 +145,8 @@ Decision decide_lift_off(const Scene& s, Method method)
 Decision decide_upstream_sliding(const Scene& s, Method method)
 {
     if (method == Method::finite_elements) return {false, "finite elements: the joint slides either way", ""};
-    return {s.sliding.two_way, s.sliding.two_way ? "sliding.two_way = true" : "sliding.two_way = false",
-            "a second yield acceleration"};
+    return decided(s.sliding.two_way, "sliding.two_way = true", "sliding.two_way = false",
+                   "a second yield acceleration");
 }
 
 RemovalAnswer without_lift_off(Scene s, const SeepagePoints&)
@@ -169,6 +159,18 @@ RemovalAnswer without_lift_off(Scene s, const SeepagePoints&)
 
 } // namespace
 
+Decision decide_vertical_motion(const Scene& s, const char* cost)
+{
+    if (!any_vertical_record(s)) return {false, "no record has a vertical component", ""};
+    return decided(s.motion.vertical, "records have vertical components", "motion.vertical = false", cost);
+}
+
+Decision decide_run_out(const Scene& s, Method)
+{
+    return decided(s.sliding.run_out_max > 0, "sliding.run_out_max_s > 0", "sliding.run_out_max_s = 0",
+                   "until it rests, only if still sliding at the record's end");
+}
+
 bool any_vertical_record(const Scene& s)
 {
     return std::any_of(s.motion.records.begin(), s.motion.records.end(),
@@ -179,11 +181,12 @@ std::vector<EffectRow> motion_effects()
 {
     return {
         {.name = "vertical motion",
-         .decide = decide_vertical_motion,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.motion.vertical = false;
-             return Removal{s, "motion.vertical = false"};
-         },
+         .decide =
+             [](const Scene& s, Method) {
+                 return decide_vertical_motion(s, "one more sample per step; the yield acceleration varies in time");
+             },
+         .take_out = [](Scene& s) { s.motion.vertical = false; },
+         .instead = "motion.vertical = false",
          .leave_out =
              [](Scene& s, const EffectPlan&) {
                  s.motion.vertical = false;
@@ -192,31 +195,23 @@ std::vector<EffectRow> motion_effects()
          .named = Effect::vertical_motion},
         {.name = "lift-off",
          .decide = decide_lift_off,
-         .remove = without_lift_off,
-         .part_of = [](const EffectPlan&) { return Effect::vertical_motion; },
+         .answer = without_lift_off,
+         .part_of = {Effect::vertical_motion},
          .named = Effect::lift_off},
         {.name = "upstream sliding",
          .decide = decide_upstream_sliding,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.sliding.two_way = false;
-             return Removal{s, "sliding.two_way = false"};
-         },
+         .take_out = [](Scene& s) { s.sliding.two_way = false; },
+         .instead = "sliding.two_way = false",
          .leave_out =
              [](Scene& s, const EffectPlan& plan) {
                  if (plan.method == Method::rigid_block) s.sliding.two_way = false;
              },
          .named = Effect::upstream_sliding},
         {.name = "run-out",
-         .decide = [](const Scene& s, Method) -> Decision {
-             return {s.sliding.run_out_max > 0,
-                     s.sliding.run_out_max > 0 ? "sliding.run_out_max_s > 0" : "sliding.run_out_max_s = 0",
-                     "until it rests, only if still sliding at the record's end"};
-         },
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.sliding.run_out_max = 0.0;
-             return Removal{s, "sliding.run_out_max_s = 0: the record's end is the end"};
-         },
-         .leave_out = [](Scene& s, const EffectPlan&) { s.sliding.run_out_max = 0.0; },
+         .decide = decide_run_out,
+         .take_out = [](Scene& s) { s.sliding.run_out_max = 0.0; },
+         .instead = "sliding.run_out_max_s = 0: the record's end is the end",
+         .taken_out_when_off = true,
          .named = Effect::run_out},
     };
 }

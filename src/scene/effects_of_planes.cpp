@@ -54,7 +54,7 @@ bool drained(const Seam& seam)
 Decision of_planes(Method method, bool on, std::string yes, std::string no, std::string cost)
 {
     if (method == Method::finite_elements) return {false, "finite elements: base and [[lift_joint]]", ""};
-    return on ? Decision{true, std::move(yes), std::move(cost)} : Decision{false, std::move(no), ""};
+    return decided(on, std::move(yes), std::move(no), std::move(cost));
 }
 
 /// A row of seams: on where any seam is so.
@@ -69,15 +69,6 @@ bool is_traced(const Scene& s)
     return s.dam.crack == BodyCrack::traced;
 }
 
-void leave_wedges(Scene& s)
-{
-    for (Seam& seam : s.seams) {
-        if (!seam.wedge) continue;
-        seam.wedge.reset();
-        seam.exit = SeamExit::free_face;
-    }
-}
-
 } // namespace
 
 std::vector<EffectRow> plane_effects()
@@ -88,11 +79,9 @@ std::vector<EffectRow> plane_effects()
              [](const Scene& s, Method m) {
                  return of_planes(m, has_lifts(s), "[lifts]", "no [lifts]", "one rigid block for each lift");
              },
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.lifts.reset();
-             return Removal{s, "no [lifts]: a dam of one piece"};
-         },
-         .leave_out = [](Scene& s, const EffectPlan&) { s.lifts.reset(); },
+         .take_out = [](Scene& s) { s.lifts.reset(); },
+         .instead = "no [lifts]: a dam of one piece",
+         .taken_out_when_off = true,
          .concerns = has_planes},
         {.name = "water in lifts",
          .decide =
@@ -100,10 +89,8 @@ std::vector<EffectRow> plane_effects()
                  return of_planes(m, s.lifts->uplift != LiftUplift::none, "lifts.uplift", "lifts.uplift = \"none\"",
                                   "one force on each lift");
              },
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.lifts->uplift = LiftUplift::none;
-             return Removal{s, "lifts.uplift = \"none\""};
-         },
+         .take_out = [](Scene& s) { s.lifts->uplift = LiftUplift::none; },
+         .instead = "lifts.uplift = \"none\"",
          .concerns = has_lifts},
         {.name = "amplification over the height",
          .decide =
@@ -114,10 +101,8 @@ std::vector<EffectRow> plane_effects()
                                       ? "modes of the bonded dam once, four slides for each lift, record and polarity"
                                       : "one integral for each lift");
              },
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.lifts->amplification = Amplification::constant;
-             return Removal{s, "lifts.amplification = \"constant\": the dam moves as the ground"};
-         },
+         .take_out = [](Scene& s) { s.lifts->amplification = Amplification::constant; },
+         .instead = "lifts.amplification = \"constant\": the dam moves as the ground",
          .concerns = has_lifts},
         {.name = "seams",
          .decide =
@@ -128,11 +113,9 @@ std::vector<EffectRow> plane_effects()
                  return of_planes(m, has_seams(s), fmt::format("{} [[seam]]", s.seams.size()), "no [[seam]]",
                                   "one chain of rigid blocks for each");
              },
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.seams.clear();
-             return Removal{s, "no [[seam]]: whole rock below the base"};
-         },
-         .leave_out = [](Scene& s, const EffectPlan&) { s.seams.clear(); },
+         .take_out = [](Scene& s) { s.seams.clear(); },
+         .instead = "no [[seam]]: whole rock below the base",
+         .taken_out_when_off = true,
          .concerns = has_planes},
         {.name = "passive wedge",
          .decide =
@@ -140,10 +123,15 @@ std::vector<EffectRow> plane_effects()
                  return of_seams<pushes_wedge>(m, s, "[seam.wedge]", "no [seam.wedge]",
                                                "one block more; a search by its angle");
              },
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             leave_wedges(s);
-             return Removal{s, "seam.exit = \"free-face\": nothing holds the toe"};
-         },
+         .take_out =
+             [](Scene& s) {
+                 for (Seam& seam : s.seams) {
+                     if (!seam.wedge) continue;
+                     seam.wedge.reset();
+                     seam.exit = SeamExit::free_face;
+                 }
+             },
+         .instead = "seam.exit = \"free-face\": nothing holds the toe",
          .concerns = has_seams},
         {.name = "friction between blocks",
          .decide =
@@ -151,27 +139,29 @@ std::vector<EffectRow> plane_effects()
                  return of_seams<rubs>(m, s, "seam.interface.model = \"friction\"", "seam.interface.model = \"smooth\"",
                                        "none");
              },
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             for (Seam& seam : s.seams) {
-                 seam.interface.model = InterfaceModel::smooth;
-                 seam.interface.friction = seam.interface.cohesion = 0.0;
-             }
-             return Removal{s, "seam.interface.model = \"smooth\""};
-         },
+         .take_out =
+             [](Scene& s) {
+                 for (Seam& seam : s.seams) {
+                     seam.interface.model = InterfaceModel::smooth;
+                     seam.interface.friction = seam.interface.cohesion = 0.0;
+                 }
+             },
+         .instead = "seam.interface.model = \"smooth\"",
          .concerns = has_seams},
         {.name = "dilation of seams",
          .decide =
              [](const Scene& s, Method m) {
                  return of_seams<rises>(m, s, "seam.dilation_deg", "no dilation_deg", "none; its end is an event");
              },
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             for (Seam& seam : s.seams) {
-                 seam.dilation = 0.0;
-                 seam.dilation_slip.reset();
-                 if (seam.wedge) seam.wedge->dilation = 0.0;
-             }
-             return Removal{s, "seam.dilation_deg = 0"};
-         },
+         .take_out =
+             [](Scene& s) {
+                 for (Seam& seam : s.seams) {
+                     seam.dilation = 0.0;
+                     seam.dilation_slip.reset();
+                     if (seam.wedge) seam.wedge->dilation = 0.0;
+                 }
+             },
+         .instead = "seam.dilation_deg = 0",
          .concerns = has_seams},
         {.name = "drains at seams",
          .decide =
@@ -179,11 +169,12 @@ std::vector<EffectRow> plane_effects()
                  return of_seams<drained>(m, s, "seam.uplift = \"drains\"", "no seam.uplift = \"drains\"",
                                           "one corner of the pressure");
              },
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             for (Seam& seam : s.seams)
-                 if (drained(seam)) seam.uplift = UpliftModel::linear;
-             return Removal{s, "seam.uplift = \"linear\", as with E = 0"};
-         },
+         .take_out =
+             [](Scene& s) {
+                 for (Seam& seam : s.seams)
+                     if (drained(seam)) seam.uplift = UpliftModel::linear;
+             },
+         .instead = "seam.uplift = \"linear\", as with E = 0",
          .concerns = has_seams},
         {.name = "change of shape with slip",
          .decide =
@@ -191,22 +182,17 @@ std::vector<EffectRow> plane_effects()
                  return of_planes(m, s.planes.geometry == PlaneGeometry::linear, "planes.geometry = \"linear\"",
                                   "planes.geometry = \"small\"", "a yield that grows with the slip");
              },
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.planes.geometry = PlaneGeometry::small;
-             return Removal{s, "planes.geometry = \"small\""};
-         },
+         .take_out = [](Scene& s) { s.planes.geometry = PlaneGeometry::small; },
+         .instead = "planes.geometry = \"small\"",
          .concerns = has_seams},
         {.name = "traced cracks",
          .decide =
              [](const Scene&, Method m) {
-                 return m == Method::rigid_block
-                            ? Decision{false, "rigid block", ""}
-                            : Decision{true, "dam.crack = \"traced\"", "a run anew for each crack, and each time a path moves"};
+                 return decided(m == Method::finite_elements, "dam.crack = \"traced\"", "rigid block",
+                                "a run anew for each crack, and each time a path moves");
              },
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.dam.crack = BodyCrack::none;
-             return Removal{s, "dam.crack = \"none\": the concrete stays whole"};
-         },
+         .take_out = [](Scene& s) { s.dam.crack = BodyCrack::none; },
+         .instead = "dam.crack = \"none\": the concrete stays whole",
          .concerns = is_traced},
     };
 }

@@ -16,11 +16,6 @@ namespace {
 /// frequencies up to the reservoir's first differ from incompressible water's by less than (1/100)^2 [-].
 constexpr double stiff_water_factor = 1e4;
 
-Effect part_of_acoustic_water(const EffectPlan&)
-{
-    return Effect::acoustic_water;
-}
-
 Decision decide_hydrodynamic_mass(const Scene& s, Method method)
 {
     if (!s.reservoir) return {false, "no [reservoir]", ""};
@@ -44,17 +39,17 @@ bool is_acoustic(const Scene& s, Method method)
     return method == Method::finite_elements && s.reservoir && s.reservoir->model == ReservoirModel::acoustic;
 }
 
+Decision decide_table(bool there, const char* table, const char* cost)
+{
+    return decided(there, fmt::format("[{}] is given", table), fmt::format("no [{}]", table), cost);
+}
+
 /// Effects of acoustic water alone.
 Decision of_acoustic_water(const Scene& s, Method method, bool on, std::string yes, std::string no, std::string cost)
 {
     if (method == Method::rigid_block) return {false, "rigid block", ""};
     if (!is_acoustic(s, method)) return {false, "reservoir is not acoustic", ""};
-    return on ? Decision{true, std::move(yes), std::move(cost)} : Decision{false, std::move(no), ""};
-}
-
-Decision decide_acoustic_water(const Scene& s, Method method)
-{
-    return of_acoustic_water(s, method, true, "reservoir.model = \"acoustic\"", "", "one unknown per water node");
+    return decided(on, std::move(yes), std::move(no), std::move(cost));
 }
 
 Decision decide_water_compressibility(const Scene& s, Method method)
@@ -101,13 +96,6 @@ Decision decide_wave_radiation(const Scene& s, Method method)
         end == FarEnd::absorbing ? "layers at the far end" : "a damper on each node of the far end");
 }
 
-Decision decide_surface_waves(const Scene& s, Method method)
-{
-    return of_acoustic_water(s, method, s.reservoir && s.reservoir->surface == WaterSurface::sloshing,
-                             "reservoir.surface = \"sloshing\"", "reservoir.surface = \"free\": p = 0",
-                             "pressures of the surface");
-}
-
 Decision decide_floor_pressure(const Scene& s, Method method)
 {
     if (method == Method::rigid_block) return {false, "rigid block", ""};
@@ -135,15 +123,6 @@ RemovalAnswer without_compressibility(Scene s, const SeepagePoints&)
     return Removal{s, "added mass without its period: incompressible water"};
 }
 
-RemovalAnswer without_bottom_absorption(Scene s, const SeepagePoints&)
-{
-    s.reservoir->floor = ReservoirFloor::absorbing;
-    s.reservoir->bottom_reflection = 1.0;
-    s.reservoir->bottom_density.reset();
-    s.reservoir->bottom_modulus.reset();
-    return Removal{s, "reservoir.bottom_reflection = 1: every wave comes back from the bottom"};
-}
-
 RemovalAnswer without_wave_radiation(Scene s, const SeepagePoints&)
 {
     s.reservoir->far_end = FarEnd::closed;
@@ -158,73 +137,73 @@ std::vector<EffectRow> water_effects()
     return {
         {.name = "hydrodynamic added mass",
          .decide = decide_hydrodynamic_mass,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.reservoir->model = ReservoirModel::hydrostatic;
-             return Removal{s, "reservoir.model = \"hydrostatic\": water that does not move"};
-         },
+         .take_out = [](Scene& s) { s.reservoir->model = ReservoirModel::hydrostatic; },
+         .instead = "reservoir.model = \"hydrostatic\": water that does not move",
          .leave_out =
              [](Scene& s, const EffectPlan& plan) {
                  if (s.reservoir && !plan.on(Effect::acoustic_water)) s.reservoir->model = ReservoirModel::hydrostatic;
              },
          .named = Effect::hydrodynamic_mass},
         {.name = "acoustic water",
-         .decide = decide_acoustic_water,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+         .decide =
+             [](const Scene& s, Method method) {
+                 return of_acoustic_water(s, method, true, "reservoir.model = \"acoustic\"", "",
+                                          "one unknown per water node");
+             },
+         .answer = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
              s.reservoir->model = ReservoirModel::added_mass;
              return Removal{s, fmt::format("reservoir.model = \"added-mass\": {}", formula_name(s.added_mass))};
          },
          .named = Effect::acoustic_water},
         {.name = "water compressibility",
          .decide = decide_water_compressibility,
-         .remove = without_compressibility,
-         .part_of =
-             [](const EffectPlan& plan) {
-                 return plan.on(Effect::acoustic_water) ? Effect::acoustic_water : Effect::hydrodynamic_mass;
-             },
+         .answer = without_compressibility,
+         .part_of = {Effect::acoustic_water, Effect::hydrodynamic_mass},
          .named = Effect::water_compressibility},
         {.name = "bottom absorption",
          .decide = decide_bottom_absorption,
-         .remove = without_bottom_absorption,
-         .part_of = part_of_acoustic_water,
+         .take_out =
+             [](Scene& s) {
+                 s.reservoir->floor = ReservoirFloor::absorbing;
+                 s.reservoir->bottom_reflection = 1.0;
+                 s.reservoir->bottom_density.reset();
+                 s.reservoir->bottom_modulus.reset();
+             },
+         .instead = "reservoir.bottom_reflection = 1: every wave comes back from the bottom",
+         .part_of = {Effect::acoustic_water},
          .named = Effect::bottom_absorption},
         {.name = "moving reservoir bottom",
          .decide = decide_moving_bottom,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.reservoir->bottom_motion = BottomMotion::still;
-             return Removal{s, "reservoir.bottom_motion = \"still\": no pressure by the floor's vertical motion"};
-         },
-         .part_of = part_of_acoustic_water,
+         .take_out = [](Scene& s) { s.reservoir->bottom_motion = BottomMotion::still; },
+         .instead = "reservoir.bottom_motion = \"still\": no pressure by the floor's vertical motion",
+         .part_of = {Effect::acoustic_water},
          .named = Effect::moving_bottom},
         {.name = "wave radiation upstream",
          .decide = decide_wave_radiation,
-         .remove = without_wave_radiation,
-         .part_of = part_of_acoustic_water,
+         .answer = without_wave_radiation,
+         .part_of = {Effect::acoustic_water},
          .named = Effect::wave_radiation},
         {.name = "surface waves",
-         .decide = decide_surface_waves,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.reservoir->surface = WaterSurface::free;
-             return Removal{s, "reservoir.surface = \"free\": p = 0"};
-         },
-         .part_of = part_of_acoustic_water,
+         .decide =
+             [](const Scene& s, Method method) {
+                 return of_acoustic_water(s, method, s.reservoir && s.reservoir->surface == WaterSurface::sloshing,
+                                          "reservoir.surface = \"sloshing\"", "reservoir.surface = \"free\": p = 0",
+                                          "pressures of the surface");
+             },
+         .take_out = [](Scene& s) { s.reservoir->surface = WaterSurface::free; },
+         .instead = "reservoir.surface = \"free\": p = 0",
+         .part_of = {Effect::acoustic_water},
          .named = Effect::surface_waves},
         {.name = "floor pressure",
          .decide = decide_floor_pressure,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.reservoir->floor_pressure = false;
-             return Removal{s, "reservoir.floor_pressure = false"};
-         },
-         .part_of = [](const EffectPlan&) { return Effect::rock_flexibility; },
+         .take_out = [](Scene& s) { s.reservoir->floor_pressure = false; },
+         .instead = "reservoir.floor_pressure = false",
+         .part_of = {Effect::rock_flexibility},
          .named = Effect::floor_pressure},
     };
 }
 
 namespace {
-
-Effect part_of_uplift(const EffectPlan&)
-{
-    return Effect::uplift;
-}
 
 bool uplift_acts(const Scene& s)
 {
@@ -285,44 +264,38 @@ std::vector<EffectRow> uplift_effects()
     return {
         {.name = "uplift",
          .decide = decide_uplift,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.uplift = Uplift{.model = UpliftModel::none, .points = {}, .water = {}};
-             return Removal{s, "uplift.model = \"none\": dry base"};
-         },
-         .leave_out =
-             [](Scene& s, const EffectPlan&) { // said by name, so that the scene that was run can be read again
+         .take_out =
+             [](Scene& s) { // said by name, so that the scene that was run can be read again
                  if (s.uplift) s.uplift = Uplift{.model = UpliftModel::none, .points = {}, .water = {}};
              },
+         .instead = "uplift.model = \"none\": dry base",
+         .taken_out_when_off = true,
          .named = Effect::uplift},
         {.name = "seepage",
-         .decide = [](const Scene& s, Method) -> Decision {
-             const bool on = s.uplift && s.uplift->model == UpliftModel::seepage;
-             return {on, on ? "uplift.model = \"seepage\"" : "uplift is not by seepage",
-                     "one Darcy solution of the rock box"};
-         },
-         .remove = without_seepage,
-         .part_of = part_of_uplift,
+         .decide =
+             [](const Scene& s, Method) {
+                 return decided(s.uplift && s.uplift->model == UpliftModel::seepage, "uplift.model = \"seepage\"",
+                                "uplift is not by seepage", "one Darcy solution of the rock box");
+             },
+         .answer = without_seepage,
+         .part_of = {Effect::uplift},
          .named = Effect::seepage},
         {.name = "base crack",
          .decide = decide_base_crack,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.uplift->crack = CrackRule::none;
-             return Removal{s, "uplift.crack = \"none\""};
-         },
+         .take_out = [](Scene& s) { s.uplift->crack = CrackRule::none; },
+         .instead = "uplift.crack = \"none\"",
          .leave_out =
              [](Scene& s, const EffectPlan& plan) { // finite elements: limit equilibrium beside them needs it
                  if (plan.method == Method::rigid_block && s.uplift) s.uplift->crack = CrackRule::none;
              },
-         .part_of = part_of_uplift,
+         .part_of = {Effect::uplift},
          .named = Effect::base_crack},
         {.name = "drains",
-         .decide = [](const Scene& s, Method) -> Decision {
-             return {s.drains.has_value(), s.drains ? "[drains] is given" : "no [drains]",
-                     "part of the pressure profile"};
-         },
-         .remove = without_drains,
+         .decide = [](const Scene& s,
+                      Method) { return decide_table(s.drains.has_value(), "drains", "part of the pressure profile"); },
+         .answer = without_drains,
          .leave_out = [](Scene& s, const EffectPlan&) { s.drains.reset(); },
-         .part_of = part_of_uplift,
+         .part_of = {Effect::uplift},
          .named = Effect::drains},
     };
 }
@@ -362,111 +335,79 @@ Decision decide_water_after(const Scene& s, Method method)
 
 std::vector<EffectRow> opening_water_effects()
 {
-    const auto of_uplift = [](const EffectPlan&) { return Effect::uplift; };
     return {
         {.name = "water that follows the opening",
          .decide = decide_opening_water,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             const WaterAfter after = s.uplift->water.after;
-             s.uplift->water = {};
-             s.uplift->water.after = after;
-             return Removal{s, "uplift.opening = \"unchanged\": the pressure before the earthquake"};
-         },
-         .leave_out =
-             [](Scene& s, const EffectPlan&) {
-                 if (!s.uplift) return;
-                 const WaterAfter after = s.uplift->water.after;
-                 s.uplift->water = {};
-                 s.uplift->water.after = after;
+         .take_out =
+             [](Scene& s) {
+                 if (s.uplift) s.uplift->water = {.after = s.uplift->water.after, .mouth_speed = {}};
              },
-         .part_of = of_uplift},
+         .instead = "uplift.opening = \"unchanged\": the pressure before the earthquake",
+         .taken_out_when_off = true,
+         .part_of = {Effect::uplift}},
         {.name = "water in the crack afterwards",
          .decide = decide_water_after,
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.uplift->water.after = WaterAfter::unchanged;
-             return Removal{s, "uplift.after = \"unchanged\""};
-         },
-         .leave_out =
-             [](Scene& s, const EffectPlan&) {
+         .take_out =
+             [](Scene& s) {
                  if (s.uplift) s.uplift->water.after = WaterAfter::unchanged;
              },
-         .part_of = of_uplift},
+         .instead = "uplift.after = \"unchanged\"",
+         .taken_out_when_off = true,
+         .part_of = {Effect::uplift}},
     };
 }
-
-namespace {
-
-std::string table_there(bool there, const std::string& table)
-{
-    return there ? "[" + table + "] is given" : "no [" + table + "]";
-}
-
-RemovalAnswer without_tailwater(Scene s, const SeepagePoints&)
-{
-    s.tailwater.reset();
-    for (Combination& c : s.combinations) c.tailwater_level.reset();
-    return Removal{s, "no [tailwater]"};
-}
-
-RemovalAnswer without_ice(Scene s, const SeepagePoints&)
-{
-    s.ice.reset();
-    for (Combination& c : s.combinations) c.ice = false;
-    return Removal{s, "no [ice]"};
-}
-
-} // namespace
 
 std::vector<EffectRow> load_effects()
 {
     return {
         {.name = "hydrostatic thrust",
-         .decide = [](const Scene& s, Method) -> Decision {
-             return {s.reservoir.has_value(), table_there(s.reservoir.has_value(), "reservoir"),
-                     "exact face integrals"};
-         },
-         .remove = [](Scene, const SeepagePoints&) -> RemovalAnswer {
+         .decide = [](const Scene& s,
+                      Method) { return decide_table(s.reservoir.has_value(), "reservoir", "exact face integrals"); },
+         .answer = [](Scene, const SeepagePoints&) -> RemovalAnswer {
              return Stays{"without water it is another load, not another model: give the scene no [reservoir]"};
          },
          .leave_out = [](Scene& s, const EffectPlan&) { s.reservoir.reset(); },
          .named = Effect::hydrostatic_thrust},
         {.name = "tailwater",
-         .decide = [](const Scene& s, Method) -> Decision {
-             return {s.tailwater.has_value(), table_there(s.tailwater.has_value(), "tailwater"),
-                     "exact face integrals"};
-         },
-         .remove = without_tailwater,
+         .decide = [](const Scene& s,
+                      Method) { return decide_table(s.tailwater.has_value(), "tailwater", "exact face integrals"); },
+         .take_out =
+             [](Scene& s) {
+                 s.tailwater.reset();
+                 for (Combination& c : s.combinations) c.tailwater_level.reset();
+             },
+         .instead = "no [tailwater]",
          .leave_out = [](Scene& s, const EffectPlan&) { s.tailwater.reset(); },
          .named = Effect::tailwater},
         {.name = "silt",
-         .decide = [](const Scene& s, Method) -> Decision {
-             return {s.silt.has_value(), table_there(s.silt.has_value(), "silt"), "one force"};
-         },
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.silt.reset();
-             return Removal{s, "no [silt]"};
-         },
-         .leave_out = [](Scene& s, const EffectPlan&) { s.silt.reset(); },
+         .decide = [](const Scene& s, Method) { return decide_table(s.silt.has_value(), "silt", "one force"); },
+         .take_out = [](Scene& s) { s.silt.reset(); },
+         .instead = "no [silt]",
+         .taken_out_when_off = true,
          .named = Effect::silt},
         {.name = "ice",
-         .decide = [](const Scene& s, Method) -> Decision {
-             return {s.ice.has_value(), s.ice ? "[ice] is given; acts in the combinations that name it" : "no [ice]",
-                     "one force"};
-         },
-         .remove = without_ice,
+         .decide =
+             [](const Scene& s, Method) {
+                 return decided(s.ice.has_value(), "[ice] is given; acts in the combinations that name it", "no [ice]",
+                                "one force");
+             },
+         .take_out =
+             [](Scene& s) {
+                 s.ice.reset();
+                 for (Combination& c : s.combinations) c.ice = false;
+             },
+         .instead = "no [ice]",
          .leave_out = [](Scene& s, const EffectPlan&) { s.ice.reset(); },
          .named = Effect::ice},
         {.name = "user forces",
-         .decide = [](const Scene& s, Method) -> Decision {
-             return {!s.forces.empty(),
-                     s.forces.empty() ? "no [[force]]" : fmt::format("{} [[force]]", s.forces.size()),
-                     "one force each"};
-         },
-         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.forces.clear();
-             return Removal{s, "no [[force]]"};
-         },
-         .leave_out = [](Scene& s, const EffectPlan&) { s.forces.clear(); },
+         .decide =
+             [](const Scene& s, Method) {
+                 return decided(!s.forces.empty(), fmt::format("{} [[force]]", s.forces.size()), "no [[force]]",
+                                "one force each");
+             },
+         .take_out = [](Scene& s) { s.forces.clear(); },
+         .instead = "no [[force]]",
+         .taken_out_when_off = true,
          .named = Effect::user_forces},
     };
 }

@@ -29,6 +29,10 @@ public:
     void wrong_at(Place place, std::string problem, std::string expected, std::string fix);
     /// Allowed, but not what real dams have; its place is filled in here.
     void note(const std::string& key, Diagnostic note) { note_at(place(key), std::move(note)); }
+    void note(const std::string& key, std::string problem, std::string expected, std::string fix)
+    {
+        note(key, Diagnostic{"", 0, 0, std::move(problem), std::move(expected), std::move(fix)});
+    }
     void note_at(Place place, Diagnostic note);
     bool any() const { return !diagnostics_.empty(); }
     void throw_if_any();                   ///< @throws InputError, in the order of the file

@@ -3,8 +3,8 @@
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/units.hpp"
-#include "scene/fragility_keys.hpp"
 #include "scene/findings.hpp"
+#include "scene/key_table.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +15,16 @@
 namespace damslip {
 
 namespace {
+
+/// @pre there are such a table and key
+const KeyGroup& table_of(std::string_view name)
+{
+    return *std::ranges::find(fragility_key_tables(), name, &KeyGroup::name);
+}
+const Key& key_of(std::string_view table, std::string_view name)
+{
+    return *std::ranges::find(table_of(table).keys, name, &Key::name);
+}
 
 /// The tables of a fragility, read with all that is wrong in them.
 class FragilityReader {
@@ -88,6 +98,14 @@ private:
                   fmt::format("write  [{}]", name));
         return node ? node->as_table() : nullptr;
     }
+    /// @param more  names that the table has beside its keys
+    void check_keys(const toml::table& table, const std::string& label, std::vector<std::string> more = {})
+    {
+        std::vector<std::string> known;
+        for (const Key& key : table_of(label).keys) known.push_back(key.name);
+        known.insert(known.end(), more.begin(), more.end());
+        check_names(table, label, known);
+    }
     void check_names(const toml::table& table, const std::string& label, const std::vector<std::string>& known)
     {
         for (auto&& [key, node] : table) {
@@ -117,7 +135,7 @@ private:
     {
         const toml::node* node = table.get(name);
         if (!node) return;
-        const FragilityKey& key = fragility_key_table(label).key(name);
+        const Key& key = key_of(label, name);
         const std::optional<double> v = finite_number(*node);
         if (v && key.range.contains(*v))
             out = *v;
@@ -128,7 +146,7 @@ private:
     {
         const toml::node* node = table.get(name);
         if (!node) return;
-        const FragilityKey& key = fragility_key_table(label).key(name);
+        const Key& key = key_of(label, name);
         const auto v = node->value_exact<std::int64_t>();
         if (v && key.range.contains(static_cast<double>(*v)))
             out = *v;
@@ -149,37 +167,30 @@ private:
         const toml::node* node = table.get(name);
         if (!node) return std::nullopt;
         auto v = node->value_exact<std::string>();
-        if (!v || v->empty())
-            not_allowed(*node, label, name, "a text in quotes", fragility_key_table(label).key(name).example);
+        if (!v || v->empty()) not_allowed(*node, label, name, "a text in quotes", key_of(label, name).example);
         return v;
     }
-    /// The place of a word in a list; `out` stays where the key is not there.
-    template <class Value>
-    void choice(const toml::table& table, const std::string& label, const char* name,
-                const std::vector<std::pair<std::string, Value>>& words, Value& out)
+    /// A choice, whose values are in the order of the key's words.
+    template <class Choice>
+    void choice(const toml::table& table, const std::string& label, const char* name, Choice& out)
     {
         const toml::node* node = table.get(name);
         if (!node) return;
-        const auto text = node->value<std::string>();
-        std::vector<std::string> known;
-        for (const auto& [word, value] : words) {
-            if (text && *text == word) {
-                out = value;
-                return;
-            }
-            known.push_back("\"" + word + "\"");
-        }
-        wrong(*node, fmt::format("{}.{} is not allowed.", label, name),
-              fmt::format("one of {}", fmt::join(known, ", ")), fmt::format("write  {} = {}", name, known.front()));
+        const std::vector<std::string>& words = key_of(label, name).value.words;
+        const auto at = std::ranges::find(words, node->value<std::string>().value_or(""));
+        if (at != words.end())
+            out = static_cast<Choice>(at - words.begin());
+        else
+            wrong(*node, fmt::format("{}.{} is not allowed.", label, name),
+                  fmt::format("one of \"{}\"", fmt::join(words, "\", \"")),
+                  fmt::format("write  {} = \"{}\"", name, words.front()));
     }
 
     void read_probability(ProbabilityInput& p)
     {
         const toml::table* table = table_named("probability");
         if (!table) return;
-        std::vector<std::string> names = fragility_key_table("probability").names();
-        names.insert(names.end(), {"variable", "correlation"});
-        check_names(*table, "probability", names);
+        check_keys(*table, "probability", {"variable", "correlation"});
         std::int64_t seed = 1, replicates = p.replicates, samples = 0;
         whole(*table, "probability", "seed", seed);
         whole(*table, "probability", "replicates", replicates);
@@ -187,15 +198,8 @@ private:
         p.seed = static_cast<std::uint64_t>(seed);
         p.replicates = static_cast<int>(replicates);
         if (samples) p.samples = static_cast<int>(samples);
-        choice<SamplingInput>(*table, "probability", "sampling",
-                              {{"sobol", SamplingInput::sobol},
-                               {"lhs", SamplingInput::latin_hypercube},
-                               {"random", SamplingInput::random}},
-                              p.sampling);
-        choice<StaticFailure>(
-            *table, "probability", "static_failure",
-            {{"infinite", StaticFailure::infinite}, {"given-standing", StaticFailure::given_standing}},
-            p.static_failure);
+        choice(*table, "probability", "sampling", p.sampling);
+        choice(*table, "probability", "static_failure", p.static_failure);
         for_each_entry(*table, "variable", "[[probability.variable]]",
                        [&](const toml::table& entry) { read_variable(entry, p); });
         for_each_entry(*table, "correlation", "[[probability.correlation]]",
@@ -223,7 +227,7 @@ private:
     {
         RandomVariable v;
         const char* const label = "probability.variable";
-        check_names(entry, label, fragility_key_table(label).names());
+        check_keys(entry, label);
         const toml::node* key = entry.get("key");
         if (!key)
             return wrong(entry, "probability.variable.key is missing.", "a key of the scene",
@@ -246,8 +250,7 @@ private:
                 wrong(entry, fmt::format("there are two variables \"{}\".", v.name), "a name of its own for each",
                       "add a name");
         flag(entry, label, "factor", v.factor);
-        choice<VariableKind>(entry, label, "kind",
-                             {{"aleatory", VariableKind::aleatory}, {"epistemic", VariableKind::epistemic}}, v.kind);
+        choice(entry, label, "kind", v.kind);
         read_law(entry, v);
         p.variables.push_back(std::move(v));
     }
@@ -258,8 +261,8 @@ private:
         const toml::node* discrete = entry.get("discrete");
         std::size_t laws = discrete ? 1 : 0;
         if (discrete) read_discrete(*discrete, label, v);
-        for (const FragilityKey& law : fragility_key_table("probability.variable").keys) {
-            if (law.value != FragilityValue::law) continue;
+        for (const Key& law : table_of("probability.variable").keys) {
+            if (law.value.kind != ValueKind::law) continue;
             const toml::node* node = entry.get(law.name);
             if (!node) continue;
             ++laws;
@@ -326,7 +329,7 @@ private:
 
     void read_correlation(const toml::table& entry, ProbabilityInput& p)
     {
-        check_names(entry, "probability.correlation", fragility_key_table("probability.correlation").names());
+        check_keys(entry, "probability.correlation");
         RankCorrelation c;
         c.where = {"probability.correlation", entry.source().begin.line};
         const toml::array* names = entry["between"].as_array();
@@ -354,17 +357,11 @@ private:
         const toml::table* table = table_named("suite");
         if (!table) return;
         SuiteInput& suite = out.emplace();
-        check_names(*table, "suite", fragility_key_table("suite").names());
+        check_keys(*table, "suite");
         if (const auto files = text(*table, "suite", "files")) suite.files = (file_.parent_path() / *files).string();
         if (const toml::node* files = table->get("files")) suite.where = {"suite.files", files->source().begin.line};
-        choice<SuiteDraw>(*table, "suite", "draw",
-                          {{"balanced", SuiteDraw::balanced}, {"with-replacement", SuiteDraw::with_replacement}},
-                          suite.draw);
-        choice<SuitePolarity>(*table, "suite", "polarity",
-                              {{"both", SuitePolarity::both},
-                               {"as-recorded", SuitePolarity::as_recorded},
-                               {"reversed", SuitePolarity::reversed}},
-                              suite.polarity);
+        choice(*table, "suite", "draw", suite.draw);
+        choice(*table, "suite", "polarity", suite.polarity);
         number(*table, "suite", "max_scale", suite.max_scale);
         flag(*table, "suite", "allow_scaling", suite.allow_scaling);
     }
@@ -384,7 +381,7 @@ private:
                                                {"levels_m_s2", "m/s2", 1.0, true},
                                                {"levels_m_s", "m/s", 1.0, false},
                                                {"levels_cm_s", "cm/s", units::cm, false}};
-        check_names(*table, "intensity", fragility_key_table("intensity").names());
+        check_keys(*table, "intensity");
         in.text = text(*table, "intensity", "measure").value_or("PGA");
         if (const auto name = parse_intensity(in.text)) {
             in.measure = name->measure;
@@ -394,13 +391,8 @@ private:
             wrong(*table->get("measure"), fmt::format("intensity.measure = \"{}\" is not allowed.", in.text),
                   std::string(known_intensities), "write  measure = \"PGA\"");
         }
-        choice<IntensityComponent>(*table, "intensity", "component",
-                                   {{"as-used", IntensityComponent::as_used}, {"geomean", IntensityComponent::geomean}},
-                                   in.component);
-        choice<FragilityDesign>(
-            *table, "intensity", "design",
-            {{"stripes", FragilityDesign::stripes}, {"ida", FragilityDesign::ida}, {"cloud", FragilityDesign::cloud}},
-            in.design);
+        choice(*table, "intensity", "component", in.component);
+        choice(*table, "intensity", "design", in.design);
         int given = 0;
         for (const Unit& unit : known_units) {
             const toml::node* node = table->get(unit.key);
@@ -433,14 +425,9 @@ private:
         if (!node)
             return missing("[[limit]]", "at least one", "for example  [[limit]] quantity = \"slip\" above_mm = 50");
         for_each_entry(root_, "limit", "[[limit]]", [&](const toml::table& entry) {
-            check_names(entry, "limit", fragility_key_table("limit").names());
+            check_keys(entry, "limit");
             LimitInput limit;
-            choice<LimitQuantity>(entry, "limit", "quantity",
-                                  {{"slip", LimitQuantity::slip},
-                                   {"largest-slip", LimitQuantity::largest_slip},
-                                   {"lift-off", LimitQuantity::lift_off},
-                                   {"post-seismic-fs", LimitQuantity::post_seismic_fs}},
-                                  limit.quantity);
+            choice(entry, "limit", "quantity", limit.quantity);
             if (const auto plane = text(entry, "limit", "plane")) limit.plane = *plane;
             const bool of_base = limit.plane == "base";
             if (!of_base && (limit.quantity == LimitQuantity::lift_off || limit.quantity == LimitQuantity::post_seismic_fs))
@@ -489,7 +476,7 @@ private:
     {
         const toml::table* table = table_named("hazard");
         if (!table) return;
-        check_names(*table, "hazard", fragility_key_table("hazard").names());
+        check_keys(*table, "hazard");
         HazardInput& hazard = out.emplace();
         const auto curve = text(*table, "hazard", "curve");
         if (!table->contains("curve"))
@@ -503,7 +490,7 @@ private:
             const auto degrees = [&](std::size_t i) {
                 return place && place->size() == 2 ? finite_number((*place)[i]) : std::nullopt;
             };
-            const Range& range = fragility_key_table("hazard").key("site").range;
+            const Range& range = key_of("hazard", "site").range;
             if (degrees(0) && degrees(1) && range.contains(*degrees(0)) && std::abs(*degrees(1)) <= 90.0)
                 hazard.site = {*degrees(0), *degrees(1)};
             else

@@ -15,6 +15,8 @@
 
 namespace damslip {
 
+// Values of choices are in the order of the words of their keys (fragility_keys.cpp).
+
 /// Where a value stands in the scene file, for messages that are written later.
 struct LineOfFile {
     std::string key; ///< "probability.variable[mu].lognormal"
@@ -64,7 +66,7 @@ struct ProbabilityInput {
 };
 
 enum class SuiteDraw { balanced, with_replacement };
-enum class SuitePolarity { as_recorded, reversed, both };
+enum class SuitePolarity { both, as_recorded, reversed };
 
 /// [suite]. Absent: the records of [motion].
 struct SuiteInput {

@@ -76,23 +76,16 @@ bool Usual::contains(double x) const
     return x >= low - 1e-9 * std::abs(low) && x <= high + 1e-9 * std::abs(high);
 }
 
-namespace {
-std::string spelled(const std::string& name, const UnitSuffix& unit)
-{
-    return unit.suffix.empty() ? name : name + "_" + unit.suffix;
-}
-} // namespace
-
 std::string Key::canonical() const
 {
-    return units.empty() ? name : spelled(name, units.front());
+    return units.empty() ? name : spelled(units.front());
 }
 
 std::vector<std::string> Key::spellings() const
 {
     if (units.empty()) return {name};
     std::vector<std::string> names;
-    for (const UnitSuffix& unit : units) names.push_back(spelled(name, unit));
+    for (const UnitSuffix& unit : units) names.push_back(spelled(unit));
     return names;
 }
 
@@ -114,26 +107,28 @@ bool belongs_to_wedge(const std::string& group)
 namespace damslip::keys {
 
 Key number(std::string name, Units units, Range range, std::string default_text, std::string meaning,
-           std::string example, std::function<Slot(void*)> slot)
+           std::string example, Value value)
 {
-    const bool required = default_text == "required";
-    return {std::move(name),    std::move(units), {}, range, required, std::move(default_text), std::move(meaning),
-            std::move(example), std::move(slot)};
+    Key key = word(std::move(name), std::move(default_text), std::move(meaning), std::move(example), std::move(value));
+    key.units = std::move(units);
+    key.range = range;
+    return key;
 }
 
-Key word(std::string name, std::string default_text, std::string meaning, std::string example,
-         std::function<Slot(void*)> slot)
+Key word(std::string name, std::string default_text, std::string meaning, std::string example, Value value)
 {
     const bool required = default_text == "required";
     return {std::move(name), {}, {}, {}, required, std::move(default_text), std::move(meaning), std::move(example),
-            std::move(slot)};
+            std::move(value)};
 }
 
 Key pairs(std::string name, Units first, Units second, Range range, std::string default_text, std::string meaning,
-          std::string example, std::function<Slot(void*)> slot)
+          std::string example, Value value)
 {
-    return {std::move(name),         std::move(first),   std::move(second),  range,          false,
-            std::move(default_text), std::move(meaning), std::move(example), std::move(slot)};
+    Key key = number(std::move(name), std::move(first), range, std::move(default_text), std::move(meaning),
+                     std::move(example), std::move(value));
+    key.second_units = std::move(second);
+    return key;
 }
 
 } // namespace damslip::keys

@@ -7,6 +7,8 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -55,18 +57,34 @@ struct Usual {
     bool contains(double x) const; ///< the ends included, up to the rounding of a unit
 };
 
-/// An enumeration by its words in the file.
-struct Choice {
-    std::vector<std::string> words;
-    std::function<void(int)> set; ///< index into words
-    std::function<int()> get;
+/// What a key takes.
+enum class ValueKind {
+    number,
+    number_or_word, ///< added_mass.period_s = 0.28 | "dam"
+    whole,
+    flag,
+    word, ///< one of several
+    text,
+    texts,
+    numbers, ///< a list
+    ends,    ///< of a range: search_deg = [10, 60]
+    pairs,
+    // Of the tables of a fragility alone.
+    text_or_list,
+    names,   ///< two
+    law,     ///< numbers in braces: { median = 0.77, beta = 0.15 }
+    discrete ///< values and weights in braces
 };
 
-/// A number or one word: added_mass.period_s = 0.28 | "dam".
+/// An enumeration by the place of its word.
+struct Choice {
+    std::function<void(int)> set;
+    std::function<int()> get; ///< -1: none of the words
+};
+
 struct NumberOrWord {
     std::optional<double>* number;
     bool* word_given;
-    std::string word;
 };
 
 /// A list of numbers, or the one number of a list.
@@ -75,7 +93,6 @@ struct Numbers {
     bool one = false; ///< written as a number: angle_deg = 25 beside angles_deg = [20, 25]
 };
 
-/// The ends of a range: search_deg = [10, 60].
 struct Ends {
     double *from, *to;
 };
@@ -84,6 +101,19 @@ struct Ends {
 using Slot = std::variant<double*, std::optional<double>*, int*, std::optional<int>*, bool*, std::string*,
                           std::optional<std::string>*, std::filesystem::path*, std::optional<std::filesystem::path>*,
                           std::vector<Point>*, std::vector<std::string>*, Choice, NumberOrWord, Numbers, Ends>;
+
+/// What a key takes, and where its struct has it.
+struct Value {
+    ValueKind kind;
+    std::function<Slot(void*)> slot = {}; ///< null: of a fragility, whose tables have a reader of their own
+    std::vector<std::string> words = {};  ///< of a word; the one of a number_or_word
+};
+
+/// A number in the braces of a law.
+struct LawNumber {
+    std::string name;
+    bool required = false, positive = false;
+};
 
 struct Key {
     std::string name;   ///< without unit suffix
@@ -95,13 +125,16 @@ struct Key {
         default_text; ///< shown in the docs; the value itself is the struct's initialiser or is filled in after reading
     std::string meaning; ///< one sentence
     std::string example; ///< as written in a file: "0.77"
-    std::function<Slot(void*)> slot;
+    Value value;
     std::function<bool(const void*)> applies =
         {};                          ///< false: left out of resolved scenes, another choice makes it meaningless
-    std::optional<Usual> usual = {}; ///< numbers and pairs; none: any value allowed is as usual as another (usual.hpp)
+    std::optional<Usual> usual =
+        {}; ///< numbers and pairs; none: any value allowed is as usual as another (plausible.hpp)
+    std::vector<LawNumber> numbers = {}; ///< of a law
 
     std::string canonical() const;              ///< name with the first suffix: "level_m"
     std::vector<std::string> spellings() const; ///< all accepted names
+    std::string spelled(const UnitSuffix& unit) const { return unit.suffix.empty() ? name : name + "_" + unit.suffix; }
 };
 
 enum class Presence { always, optional, list };
@@ -112,8 +145,8 @@ struct KeyGroup {
     Presence presence = Presence::optional;
     std::string meaning;
     std::vector<Key> keys;
-    std::function<void*(Scene&)> open; ///< makes the struct (a new item for lists) and returns it
-    std::function<std::vector<const void*>(const Scene&)> items; ///< those present, for writing
+    std::function<void*(Scene&)> open = {}; ///< makes the struct (a new item for lists) and returns it
+    std::function<std::vector<const void*>(const Scene&)> items = {}; ///< those present, for writing
     /// Of a table in an entry of a list, as [seam.wedge]: the struct inside the entry, made where `make` says so; null:
     /// it is not there.
     std::function<void*(void* entry, bool make)> inside = {};
@@ -137,6 +170,10 @@ std::vector<KeyGroup> key_groups(SectionInput& section);
 
 /// Tables of a scene whose block is a [wedge]; it has no others.
 bool belongs_to_wedge(const std::string& group);
+
+/// [probability], [[probability.variable]], [[probability.correlation]], [suite], [intensity], [[limit]], [hazard]: what
+/// `damslip fragility` alone computes with. Their keys have no slots.
+const std::vector<KeyGroup>& fragility_key_tables();
 
 } // namespace damslip
 
@@ -166,16 +203,31 @@ inline const Units per_second{{"1_s", 1.0}};
 
 /// The member of the object a table fills.
 template <class T, class Member>
-std::function<Slot(void*)> at(Member T::*member)
+Value at(Member T::*member)
 {
-    return [member](void* object) -> Slot { return &(static_cast<T*>(object)->*member); };
+    const auto is = []<class... Types> { return (std::is_same_v<Member, Types> || ...); };
+    Value value{is.template operator()<double, std::optional<double>>() ? ValueKind::number
+                : is.template operator()<int, std::optional<int>>()     ? ValueKind::whole
+                : is.template operator()<bool>()                        ? ValueKind::flag
+                : is.template operator()<std::vector<Point>>()          ? ValueKind::pairs
+                : is.template operator()<std::vector<std::string>>()    ? ValueKind::texts
+                : is.template operator()<std::vector<double>>()         ? ValueKind::numbers
+                                                                        : ValueKind::text};
+    value.slot = [member](void* object) -> Slot {
+        if constexpr (std::is_same_v<Member, std::vector<double>>)
+            return Numbers{&(static_cast<T*>(object)->*member)};
+        else
+            return &(static_cast<T*>(object)->*member);
+    };
+    return value;
 }
 
-/// A member of a member of the object a table fills.
-template <class T, class Part, class Member>
-std::function<Slot(void*)> in(Part T::*part, Member Part::*member)
+/// The same of a member of the object a table fills.
+template <class T, class Part>
+Value in(Part T::*part, Value value)
 {
-    return [part, member](void* object) -> Slot { return &(static_cast<T*>(object)->*part.*member); };
+    value.slot = [part, slot = std::move(value.slot)](void* object) { return slot(&(static_cast<T*>(object)->*part)); };
+    return value;
 }
 
 /// A key that resolved scenes hold only where its law is there.
@@ -188,60 +240,78 @@ Key only_where(std::function<bool(const T&)> applies, Key key)
     return key;
 }
 
+/// The same of a key that one choice of its table reads.
 template <class T, class Enum>
-std::function<Slot(void*)> choice(Enum T::*member, std::vector<std::pair<std::string, Enum>> words)
+Key only_with(Enum T::*member, Enum chosen, Key key)
 {
-    return [member, words](void* object) -> Slot {
-        Choice c;
-        for (const auto& [word, value] : words) c.words.push_back(word);
-        Enum* slot = &(static_cast<T*>(object)->*member);
-        c.set = [slot, words](int i) { *slot = words[static_cast<std::size_t>(i)].second; };
-        c.get = [slot, words] {
-            for (std::size_t i = 0; i < words.size(); ++i)
-                if (words[i].second == *slot) return static_cast<int>(i);
-            return 0;
-        };
-        return c;
-    };
+    return only_where<T>([=](const T& table) { return table.*member == chosen; }, std::move(key));
 }
 
-/// An optional enumeration: absent until the file names a word.
-template <class T, class Enum>
-std::function<Slot(void*)> optional_choice(std::optional<Enum> T::*member,
-                                           std::vector<std::pair<std::string, Enum>> words)
+template <class Enum>
+struct EnumOf {
+    using type = Enum;
+};
+template <class Enum>
+struct EnumOf<std::optional<Enum>> {
+    using type = Enum;
+};
+
+/// An enumeration by its words. An optional one is absent until the file names a word.
+template <class T, class Member, class Enum = typename EnumOf<Member>::type>
+Value choice(Member T::*member, const std::vector<std::pair<std::string, Enum>>& words)
 {
-    return [member, words](void* object) -> Slot {
-        Choice c;
-        for (const auto& [word, value] : words) c.words.push_back(word);
-        std::optional<Enum>* slot = &(static_cast<T*>(object)->*member);
-        c.set = [slot, words](int i) { *slot = words[static_cast<std::size_t>(i)].second; };
-        c.get = [slot, words] {
-            for (std::size_t i = 0; i < words.size(); ++i)
-                if (*slot == words[i].second) return static_cast<int>(i);
-            return -1;
-        };
-        return c;
+    Value value{ValueKind::word};
+    for (const auto& [word, meant] : words) value.words.push_back(word);
+    value.slot = [member, words](void* object) -> Slot {
+        Member* slot = &(static_cast<T*>(object)->*member);
+        return Choice{[slot, words](int i) { *slot = words[static_cast<std::size_t>(i)].second; },
+                      [slot, words] {
+                          for (std::size_t i = 0; i < words.size(); ++i)
+                              if (*slot == words[i].second) return static_cast<int>(i);
+                          return -1;
+                      }};
     };
+    return value;
+}
+
+template <class T>
+Value number_or_word(std::optional<double> T::*number, bool T::*given, std::string word)
+{
+    return {ValueKind::number_or_word,
+            [=](void* object) -> Slot {
+                auto* table = static_cast<T*>(object);
+                return NumberOrWord{&(table->*number), &(table->*given)};
+            },
+            {std::move(word)}};
 }
 
 Key number(std::string name, Units units, Range range, std::string default_text, std::string meaning,
-           std::string example, std::function<Slot(void*)> slot);
+           std::string example, Value value);
 
-Key word(std::string name, std::string default_text, std::string meaning, std::string example,
-         std::function<Slot(void*)> slot);
+Key word(std::string name, std::string default_text, std::string meaning, std::string example, Value value);
 
 Key pairs(std::string name, Units first, Units second, Range range, std::string default_text, std::string meaning,
-          std::string example, std::function<Slot(void*)> slot);
+          std::string example, Value value);
 
+/// One list of keys or tables of several.
 template <class T>
-KeyGroup group(std::string name, std::string meaning, T Scene::*member, std::vector<Key> keys)
+std::vector<T> joined(std::initializer_list<std::vector<T>> lists)
+{
+    std::vector<T> all;
+    for (const std::vector<T>& list : lists) all.insert(all.end(), list.begin(), list.end());
+    return all;
+}
+
+/// A table that is always there. @param table  member of the scene, or what finds it: std::identity for the scene itself
+template <class Table>
+KeyGroup group(std::string name, std::string meaning, Table table, std::vector<Key> keys)
 {
     return {std::move(name),
             Presence::always,
             std::move(meaning),
             std::move(keys),
-            [member](Scene& s) -> void* { return &(s.*member); },
-            [member](const Scene& s) { return std::vector<const void*>{&(s.*member)}; }};
+            [table](Scene& s) -> void* { return &std::invoke(table, s); },
+            [table](const Scene& s) { return std::vector<const void*>{&std::invoke(table, s)}; }};
 }
 
 template <class T>
@@ -257,38 +327,37 @@ KeyGroup optional_group(std::string name, std::string meaning, std::optional<T> 
             }};
 }
 
-template <class T, class List>
+/// @param list  member of the scene, or what finds the list in a scene
+template <class List>
 KeyGroup list_group(std::string name, std::string meaning, List list, std::vector<Key> keys)
 {
     return {std::move(name),
             Presence::list,
             std::move(meaning),
             std::move(keys),
-            [list](Scene& s) -> void* { return &list(s).emplace_back(); },
+            [list](Scene& s) -> void* { return &std::invoke(list, s).emplace_back(); },
             [list](const Scene& s) {
                 std::vector<const void*> items;
-                for (const T& item : list(const_cast<Scene&>(s))) items.push_back(&item);
+                for (const auto& item : std::invoke(list, const_cast<Scene&>(s))) items.push_back(&item);
                 return items;
             }};
 }
 
 /// A table inside each entry of a list. @param inside  as KeyGroup::inside
-template <class T, class List>
+template <class List>
 KeyGroup inner_group(std::string name, std::string meaning, List list, std::function<void*(void*, bool)> inside,
                      std::vector<Key> keys)
 {
-    return {std::move(name),
-            Presence::optional,
-            std::move(meaning),
-            std::move(keys),
-            [list, inside](Scene& s) { return inside(&list(s).emplace_back(), true); },
-            [list, inside](const Scene& s) {
-                std::vector<const void*> items;
-                for (T& item : list(const_cast<Scene&>(s)))
-                    if (const void* there = inside(&item, false)) items.push_back(there);
-                return items;
-            },
-            inside};
+    KeyGroup group = list_group(std::move(name), std::move(meaning), list, std::move(keys));
+    group.presence = Presence::optional;
+    group.inside = inside;
+    group.items = [entries = group.items, inside](const Scene& s) {
+        std::vector<const void*> items;
+        for (const void* entry : entries(s))
+            if (const void* there = inside(const_cast<void*>(entry), false)) items.push_back(there);
+        return items;
+    };
+    return group;
 }
 
 } // namespace damslip::keys

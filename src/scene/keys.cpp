@@ -3,6 +3,7 @@
 #include "scene/joint_bond.hpp"
 #include "scene/key_table.hpp"
 #include "scene/plausible.hpp"
+#include "scene/section.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,23 +15,14 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
 {
     using namespace keys;
     const auto traced = [](const Material& dam) { return dam.crack == BodyCrack::traced; };
-    std::vector<KeyGroup> groups;
-    groups.push_back({"",
-                      Presence::always,
-                      "Top level.",
-                      {word("title", "file name", "what the scene is", "\"Reference dam\"", at(&Scene::title))},
-                      [](Scene& s) -> void* { return &s; },
-                      [](const Scene& s) { return std::vector<const void*>{&s}; }});
-    groups.push_back(project_group());
-    groups.push_back(
-        {"site",
-         Presence::always,
-         "Where the dam stands.",
-         {number("gravity", {{"m_s2", 1.0}}, Range::inside(9, 10.5), "9.81",
-                 "gravity in loads; the unit g of records is always 9.80665", "9.81", at(&Scene::gravity))},
-         [](Scene& s) -> void* { return &s; },
-         [](const Scene& s) { return std::vector<const void*>{&s}; }});
-    groups.push_back(section_group(section));
+    std::vector<KeyGroup> groups{
+        group("", "Top level.", std::identity(),
+              {word("title", "file name", "what the scene is", "\"Reference dam\"", at(&Scene::title))}),
+        project_group(),
+        group("site", "Where the dam stands.", std::identity(),
+              {number("gravity", {{"m_s2", 1.0}}, Range::inside(9, 10.5), "9.81",
+                      "gravity in loads; the unit g of records is always 9.80665", "9.81", at(&Scene::gravity))}),
+        section_group(section)};
     const auto append = [&groups](std::vector<KeyGroup> more) {
         for (KeyGroup& g : more) groups.push_back(std::move(g));
     };
@@ -42,18 +34,19 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
                 at(&Material::young_modulus)),
          number("poisson_ratio", none, Range{0, 0.5, false, true}, "0.2", "Poisson's ratio", "0.17",
                 at(&Material::poisson_ratio)),
-         number("tensile_strength", {{"MPa", 1e6}, {"kPa", 1e3}, {"Pa", 1.0}}, Range::above(0), "none: `fe` gives the largest stress itself",
-                "of the concrete, against which `fe` holds the largest tension away from all joints; mass concrete has 1.5 to "
+         number("tensile_strength", {{"MPa", 1e6}, {"kPa", 1e3}, {"Pa", 1.0}}, Range::above(0),
+                "none: `fe` gives the largest stress itself",
+                "of the concrete, against which `fe` holds the largest tension away from all joints; mass concrete has "
+                "1.5 to "
                 "3 MPa (Raphael 1984)",
                 "2.5", at(&Material::tensile_strength)),
          word("crack", "none",
-              "none: the concrete stays whole, and `fe` says where it would crack; traced: `fe` follows cracks from the faces on paths "
+              "none: the concrete stays whole, and `fe` says where it would crack; traced: `fe` follows cracks from "
+              "the faces on paths "
               "of their own (tensile_strength is required)",
-              "\"traced\"",
-              choice(&Material::crack, std::vector<std::pair<std::string, BodyCrack>>{{"none", BodyCrack::none},
-                                                                                      {"traced", BodyCrack::traced}})),
-         only_where<Material>(traced, number("crack_friction", none, Range::half_open(0, 10), "1", "friction of a crack", "1.0",
-                                             at(&Material::crack_friction))),
+              "\"traced\"", choice(&Material::crack, {{"none", BodyCrack::none}, {"traced", BodyCrack::traced}})),
+         only_where<Material>(traced, number("crack_friction", none, Range::half_open(0, 10), "1",
+                                             "friction of a crack", "1.0", at(&Material::crack_friction))),
          only_where<Material>(traced, number("fracture_energy_tension", surface_energy, Range::above(0), "200",
                                              "G_I of the concrete", "200", at(&Material::tension_energy))),
          only_where<Material>(traced, number("fracture_energy_shear", surface_energy, Range::above(0), "2000",
@@ -61,13 +54,12 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
     append(base_groups());
     append(water_groups());
     using F = PointForce;
-    groups.push_back(list_group<F>(
-        "force", "A force on the dam given by the user.", [](Scene& s) -> std::vector<F>& { return s.forces; },
+    groups.push_back(list_group(
+        "force", "A force on the dam given by the user.", &Scene::forces,
         {word("name", "force", "name in the tables", "\"gate\"", at(&F::name)),
          number("x", length, Range::any(), "0", "where it acts, downstream of the heel", "6",
-                [](void* o) -> Slot { return &static_cast<F*>(o)->at.x; }),
-         number("y", length, Range::any(), "0", "where it acts, above the heel", "60",
-                [](void* o) -> Slot { return &static_cast<F*>(o)->at.y; }),
+                in(&F::at, at(&Point::x))),
+         number("y", length, Range::any(), "0", "where it acts, above the heel", "60", in(&F::at, at(&Point::y))),
          number("force_x", line_force, Range::any(), "0", "positive downstream", "50", at(&F::force_x)),
          number("force_y", line_force, Range::any(), "0", "positive up", "-200", at(&F::force_y))}));
     append(motion_groups());
@@ -78,10 +70,10 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
                 "follows its vibration, decoupled from the slip and coupled to it",
                 "0.3", at(&RegressionOptions::period))}));
     using W = RegressionWeightKey;
-    groups.push_back(list_group<W>(
+    groups.push_back(list_group(
         "regressions.weight",
         "Weight of one regression in the weighted median and band; without any, all that are valid count equally.",
-        [](Scene& s) -> std::vector<W>& { return s.regressions.weights; },
+        [](Scene & s) -> auto& { return s.regressions.weights; },
         {word("model", "required", "id of a regression, as listed in docs/regressions.md", "\"jibson-2007-ratio\"",
               at(&W::model)),
          number("weight", none, Range::at_least(0), "1", "relative to the other weights", "2", at(&W::weight))}));

@@ -11,27 +11,16 @@
 /// The keys of the scene file by topic, each with its unit, range, default and meaning. keys.cpp puts them in order.
 namespace damslip::keys {
 
-/// Title block of the reports.
-KeyGroup project_group();
-
+KeyGroup project_group(); ///< title block of the reports
 /// @param input  filled instead of a member of the scene: the polygon is made of it afterwards (make_section)
 KeyGroup section_group(SectionInput& input);
 std::vector<KeyGroup> base_groups();
-std::vector<Key> bond_keys();          ///< of the contact's strength
-std::vector<Key> rate_keys();          ///< of its friction over the rate, and of landings
-std::vector<Key> opening_water_keys(); ///< of [uplift]
-KeyGroup anchor_group();
 std::vector<KeyGroup> water_groups();
 std::vector<KeyGroup> motion_groups();
 std::vector<KeyGroup> fe_groups();
 std::vector<KeyGroup> wedge_groups();
 KeyGroup flexible_block_group();
-
-/// Load combinations of the limit equilibrium.
-KeyGroup combination_group();
-
-/// Keys of [contact]; those of the strength are keys of every lift joint too.
-std::vector<Key> lift_joint_keys(const std::vector<Key>& contact);
+KeyGroup combination_group(); ///< load combinations of the limit equilibrium
 
 /// Keys of [contact] as keys of a table whose struct has a strength of its own.
 template <class T>
@@ -40,7 +29,7 @@ std::vector<Key> strength_keys(const std::vector<Key>& contact, Contact T::*stre
     std::vector<Key> keys;
     for (Key key : contact) {
         if (!names.contains(key.name)) continue;
-        key.slot = [slot = key.slot, strength](void* object) { return slot(&(static_cast<T*>(object)->*strength)); };
+        key.value = in(strength, std::move(key.value));
         if (key.applies)
             key.applies = [applies = key.applies, strength](const void* object) {
                 return applies(&(static_cast<const T*>(object)->*strength));

@@ -5,36 +5,19 @@ namespace damslip::keys {
 
 namespace {
 
-Key only_with(TimeScheme scheme, Key key)
+bool is_hht(const TimeOptions& time) // which "auto" takes where it does not take modes
 {
-    key.applies = [scheme](const void* options) { return static_cast<const TimeOptions*>(options)->scheme == scheme; };
-    return key;
+    return time.scheme == TimeScheme::hht || time.scheme == TimeScheme::automatic;
 }
 
-/// A key of HHT, which "auto" takes where it does not take modes.
-Key with_hht(Key key)
+bool chooses_substeps(const TimeOptions& time)
 {
-    key.applies = [](const void* options) {
-        const TimeScheme scheme = static_cast<const TimeOptions*>(options)->scheme;
-        return scheme == TimeScheme::hht || scheme == TimeScheme::automatic;
-    };
-    return key;
+    return !time.substeps;
 }
 
-Key without_substeps(Key key)
+bool is_of_scene(const MeshOptions& mesh)
 {
-    key.applies = [](const void* options) { return !static_cast<const TimeOptions*>(options)->substeps; };
-    return key;
-}
-
-enum class MeshFrom { scene, file };
-
-Key only_with(MeshFrom from, Key key)
-{
-    key.applies = [from](const void* options) {
-        return static_cast<const MeshOptions*>(options)->file.has_value() == (from == MeshFrom::file);
-    };
-    return key;
+    return !mesh.file;
 }
 
 } // namespace
@@ -53,52 +36,47 @@ std::vector<KeyGroup> fe_groups()
                 "element size on the rock's side of the contact plane, whose nodes then need not face the dam's; runs "
                 "with a tied base have facing nodes always",
                 "1.125", at(&MeshOptions::rock_contact_size)),
-         only_with(
-             MeshFrom::scene,
+         only_where<MeshOptions>(
+             is_of_scene,
              number("rock_size", length, Range::above(0), "foundation depth / 8",
                     "largest element in the rock; with mass, an eighth of a wave of the record's highest frequencies",
                     "10", at(&MeshOptions::rock_size))),
-         only_with(MeshFrom::scene, number("growth", none, Range::between(1, 3), "1.15",
-                                           "ratio of neighbouring element sizes away from the contact plane", "1.2",
-                                           at(&MeshOptions::growth))),
+         only_where<MeshOptions>(is_of_scene, number("growth", none, Range::between(1, 3), "1.15",
+                                                     "ratio of neighbouring element sizes away from the contact plane",
+                                                     "1.2", at(&MeshOptions::growth))),
          word("element", "q4-incompatible",
               "element type of dam and rock; q8, q9 and t6 are quadratic, linear on contact planes", "\"q8\"",
-              choice(&MeshOptions::element,
-                     std::vector<std::pair<std::string, ElementKind>>{{"q4-incompatible", ElementKind::q4_incompatible},
-                                                                      {"q4", ElementKind::q4},
-                                                                      {"t3", ElementKind::t3},
-                                                                      {"q8", ElementKind::q8},
-                                                                      {"q9", ElementKind::q9},
-                                                                      {"t6", ElementKind::t6}})),
+              choice(&MeshOptions::element, {{"q4-incompatible", ElementKind::q4_incompatible},
+                                             {"q4", ElementKind::q4},
+                                             {"t3", ElementKind::t3},
+                                             {"q8", ElementKind::q8},
+                                             {"q9", ElementKind::q9},
+                                             {"t6", ElementKind::t6}})),
          word("file", "none",
               "Gmsh mesh (ASCII, version 2.2 or 4.1) of dam and rock, relative to the scene file, in place of the "
               "program's own; without size, contact_size, rock_contact_size and growth",
               "\"dam.msh\"", at(&MeshOptions::file)),
-         only_with(MeshFrom::file, number("file_unit", length, Range::above(0), "1", "unit of the coordinates in file",
-                                          "0.001", at(&MeshOptions::file_unit)))}));
+         only_where<MeshOptions>(std::not_fn(is_of_scene),
+                                 number("file_unit", length, Range::above(0), "1", "unit of the coordinates in file",
+                                        "0.001", at(&MeshOptions::file_unit)))}));
     groups.push_back(group(
         "stages", "How the static state before the earthquake comes about.", &Scene::stages,
         {word("gravity", "dam", "what has weight", "\"dam-and-rock\"",
-              choice(&Stages::gravity,
-                     std::vector<std::pair<std::string, GravityStage>>{
-                         {"dam", GravityStage::dam}, {"dam-and-rock", GravityStage::dam_and_rock}})),
+              choice(&Stages::gravity, {{"dam", GravityStage::dam}, {"dam-and-rock", GravityStage::dam_and_rock}})),
          word("geostatic", "false", "displacements are set to zero after the gravity stage, stresses stay", "true",
               at(&Stages::geostatic)),
          word("pore_pressure", "none",
               "water in the rock: `total` (pressures on both joint faces, internal term) or `effective` (body force)",
               "\"total\"",
-              choice(&Stages::pore_pressure,
-                     std::vector<std::pair<std::string, PorePressure>>{{"none", PorePressure::none},
-                                                                       {"total", PorePressure::total},
-                                                                       {"effective", PorePressure::effective}}))}));
+              choice(&Stages::pore_pressure, {{"none", PorePressure::none},
+                                              {"total", PorePressure::total},
+                                              {"effective", PorePressure::effective}}))}));
     groups.push_back(
         group("damping", "Structural damping of the FE model.", &Scene::damping,
               {word("method", "rayleigh", "how the coefficients are found", "\"modified-rayleigh\"",
-                    choice(&Damping::method,
-                           std::vector<std::pair<std::string, DampingMethod>>{
-                               {"rayleigh", DampingMethod::rayleigh},
-                               {"modified-rayleigh", DampingMethod::modified_rayleigh},
-                               {"none", DampingMethod::none}})),
+                    choice(&Damping::method, {{"rayleigh", DampingMethod::rayleigh},
+                                              {"modified-rayleigh", DampingMethod::modified_rayleigh},
+                                              {"none", DampingMethod::none}})),
                number("ratio", none, Range::between(0, 1), "0.05", "damping ratio of the two modes", "0.05",
                       at(&Damping::ratio)),
                word("first_mode", "1", "first mode that gets the ratio, from 1", "1", at(&Damping::first_mode)),
@@ -108,10 +86,9 @@ std::vector<KeyGroup> fe_groups()
                number("stiffness_coefficient", seconds, Range::at_least(0), "from ratio and modes",
                       "b_K given directly", "0.0008", at(&Damping::stiffness_coefficient)),
                word("mass", "deformation-only", "velocity the mass-proportional part resists", "\"relative\"",
-                    choice(&Damping::mass, std::vector<std::pair<std::string, MassDamping>>{
-                                               {"deformation-only", MassDamping::deformation_only},
-                                               {"relative", MassDamping::relative},
-                                               {"total", MassDamping::total}}))}));
+                    choice(&Damping::mass, {{"deformation-only", MassDamping::deformation_only},
+                                            {"relative", MassDamping::relative},
+                                            {"total", MassDamping::total}}))}));
     groups.push_back(group(
         "time", "Time integration of the FE model.", &Scene::time,
         {word("scheme", "auto; hht where alpha is given",
@@ -119,35 +96,37 @@ std::vector<KeyGroup> fe_groups()
               "hht; "
               "central-difference: explicit, steps below its limit; modal: bonded base only",
               "\"central-difference\"",
-              choice(&TimeOptions::scheme,
-                     std::vector<std::pair<std::string, TimeScheme>>{
-                         {"auto", TimeScheme::automatic},
-                         {"hht", TimeScheme::hht},
-                         {"newmark", TimeScheme::newmark},
-                         {"central-difference", TimeScheme::central_difference},
-                         {"modal", TimeScheme::modal}})),
-         with_hht(number("alpha", none, Range::between(-1.0 / 3.0, 0), "-0.05", "HHT alpha", "-0.05",
-                         at(&TimeOptions::alpha))),
-         only_with(TimeScheme::newmark, number("gamma", none, Range::between(0.5, 1.5), "0.5", "Newmark gamma", "0.5",
-                                               at(&TimeOptions::gamma))),
-         only_with(TimeScheme::newmark, number("beta", none, Range::half_open(0, 1), "0.25", "Newmark beta", "0.25",
-                                               at(&TimeOptions::beta))),
+              choice(&TimeOptions::scheme, {{"auto", TimeScheme::automatic},
+                                            {"hht", TimeScheme::hht},
+                                            {"newmark", TimeScheme::newmark},
+                                            {"central-difference", TimeScheme::central_difference},
+                                            {"modal", TimeScheme::modal}})),
+         only_where<TimeOptions>(is_hht, number("alpha", none, Range::between(-1.0 / 3.0, 0), "-0.05", "HHT alpha",
+                                                "-0.05", at(&TimeOptions::alpha))),
+         only_with(
+             &TimeOptions::scheme, TimeScheme::newmark,
+             number("gamma", none, Range::between(0.5, 1.5), "0.5", "Newmark gamma", "0.5", at(&TimeOptions::gamma))),
+         only_with(
+             &TimeOptions::scheme, TimeScheme::newmark,
+             number("beta", none, Range::half_open(0, 1), "0.25", "Newmark beta", "0.25", at(&TimeOptions::beta))),
          number("dt", seconds, Range::between(1e-7, 10), "the record's; central-difference: 0.9 of its limit or less",
                 "time step", "0.005", at(&TimeOptions::dt)),
          word("substeps", "chosen by slip_tolerance",
               "k of the steps dt / 2^k of FE runs with contact, 0 ... 10; fixed, without an estimate of the error", "2",
               at(&TimeOptions::substeps)),
-         without_substeps(
-             word("stepping", "auto",
-                  "how sub-steps are chosen: auto: uniform ones, and runs on few modes of the dam with smaller ones correct the slip "
-                  "where the dam can be reduced; uniform: halved until the slip stays; adaptive: small ones only where the "
-                  "local error of the slip asks for them, around its beginnings, ends and turns",
-                  "\"uniform\"",
-                  choice(&TimeOptions::stepping,
-                         std::vector<std::pair<std::string, Stepping>>{{"auto", Stepping::automatic},
-                                                                       {"uniform", Stepping::uniform},
-                                                                       {"adaptive", Stepping::adaptive}}))),
-         without_substeps(
+         only_where<TimeOptions>(
+             chooses_substeps,
+             word(
+                 "stepping", "auto",
+                 "how sub-steps are chosen: auto: uniform ones, and runs on few modes of the dam with smaller ones "
+                 "correct the slip where the dam can be reduced; uniform: halved until the slip stays; adaptive: small "
+                 "ones only where the local error of the slip asks for them, around its beginnings, ends and turns",
+                 "\"uniform\"",
+                 choice(&TimeOptions::stepping, {{"auto", Stepping::automatic},
+                                                 {"uniform", Stepping::uniform},
+                                                 {"adaptive", Stepping::adaptive}}))),
+         only_where<TimeOptions>(
+             chooses_substeps,
              number("slip_tolerance", none, Range::half_open(0, 1), "0.01",
                     "error of the FE slip over its largest size on the way, to which the sub-steps are chosen", "0.01",
                     at(&TimeOptions::slip_tolerance)))}));
@@ -157,9 +136,8 @@ std::vector<KeyGroup> fe_groups()
                     "goldgruber-2015: slip-tolerance 0.005, no separation, massless rock, HHT alpha -1/3, time step "
                     "0.01 s without sub-steps, mass damping of the relative velocity",
                     "\"goldgruber-2015\"",
-                    choice(&Analysis::preset, std::vector<std::pair<std::string, AnalysisPreset>>{
-                                                  {"none", AnalysisPreset::none},
-                                                  {"goldgruber-2015", AnalysisPreset::goldgruber_2015}}))}));
+                    choice(&Analysis::preset,
+                           {{"none", AnalysisPreset::none}, {"goldgruber-2015", AnalysisPreset::goldgruber_2015}}))}));
     return groups;
 }
 
@@ -167,15 +145,6 @@ KeyGroup flexible_block_group()
 {
     using M = FlexibleMass;
     const Units line_mass{{"kg_m", 1.0}, {"t_m", 1000.0}};
-    Key period =
-        number("period", seconds, Range::half_open(0, 100), "regressions.period_s",
-               "period of the mode on a base that does not slide; \"modes\": period and mass ratio of the tied "
-               "finite-element model, water included",
-               "0.3", {});
-    period.slot = [](void* object) -> Slot {
-        auto* m = static_cast<M*>(object);
-        return NumberOrWord{&m->period, &m->of_modes, "modes"};
-    };
     return optional_group(
         "flexible_block",
         "The sliding mass as one mode that vibrates on its base, beside the rigid block. Of `mass_ratio`, "
@@ -183,7 +152,10 @@ KeyGroup flexible_block_group()
         "regressions.period_s "
         "above 0 alone follows the block with all defaults.",
         &Scene::flexible_block,
-        {period,
+        {number("period", seconds, Range::half_open(0, 100), "regressions.period_s",
+                "period of the mode on a base that does not slide; \"modes\": period and mass ratio of the tied "
+                "finite-element model, water included",
+                "0.3", number_or_word(&M::period, &M::of_modes, "modes")),
          number("damping", none, Range::between(0, 0.5), "0.05", "damping ratio of the mode", "0.1",
                 at(&M::damping_ratio)),
          number("mass_ratio", none, Range::half_open(0, 0.95), "8/π² = 0.81 (uniform shear column)",
@@ -211,39 +183,36 @@ KeyGroup flexible_block_group()
                 "0.05", at(&M::reference_strain)),
          word("mode", "both", "vibration first and slip after it (decoupled), both at once (coupled), or both analyses",
               "\"coupled\"",
-              choice(&M::method,
-                     std::vector<std::pair<std::string, FlexibleMethod>>{{"both", FlexibleMethod::both},
-                                                                         {"decoupled", FlexibleMethod::decoupled},
-                                                                         {"coupled", FlexibleMethod::coupled}}))});
+              choice(&M::method, {{"both", FlexibleMethod::both},
+                                  {"decoupled", FlexibleMethod::decoupled},
+                                  {"coupled", FlexibleMethod::coupled}}))});
 }
 
 std::vector<KeyGroup> motion_groups()
 {
     std::vector<KeyGroup> groups;
-    Key polarity =
-        word("polarity", "both",
-             "the one sign on the horizontal components as filed that `fe`, `sweep`, `accuracy` and `explain --ablate` "
-             "run; `screen`, `assess`, `fragility` run both",
-             "-1", at(&Motion::polarity));
-    Key pause =
-        number("sequence_pause", seconds, Range::between(0, 600), "0",
-               "rest between the records of a sequence, beyond the run to rest", "10", at(&Motion::sequence_pause));
-    pause.applies = [](const void* motion) { return !static_cast<const Motion*>(motion)->sequence.empty(); };
     groups.push_back(group(
         "motion", "Ground motion. a_h positive upstream drives the dam downstream, a_v positive up.", &Scene::motion,
         {number("scale", none, Range::at_least(0), "1", "factor on all components", "1.5", at(&Motion::scale)),
          number("scale_to_pga", acceleration, Range::above(0), "as recorded",
                 "horizontal peak is made equal to this, the vertical by the same factor", "1.0",
                 at(&Motion::scale_to_pga)),
-         polarity, word("vertical", "true", "false: vertical components are left out", "false", at(&Motion::vertical)),
+         word("polarity", "both",
+              "the one sign on the horizontal components as filed that `fe`, `sweep`, `accuracy` and `explain "
+              "--ablate` run; `screen`, `assess`, `fragility` run both",
+              "-1", at(&Motion::polarity)),
+         word("vertical", "true", "false: vertical components are left out", "false", at(&Motion::vertical)),
          word("sequence", "each record alone",
               "names of records that shake the same dam one after the other, each from where the one before left it",
               "[\"main shock\", \"aftershock\"]", at(&Motion::sequence)),
-         pause}));
+         only_where<Motion>([](const Motion& motion) { return !motion.sequence.empty(); },
+                            number("sequence_pause", seconds, Range::between(0, 600), "0",
+                                   "rest between the records of a sequence, beyond the run to rest", "10",
+                                   at(&Motion::sequence_pause)))}));
     using R = RecordFiles;
-    groups.push_back(list_group<R>(
+    groups.push_back(list_group(
         "motion.record", "One record: a horizontal component and, if there is one, its vertical.",
-        [](Scene& s) -> std::vector<R>& { return s.motion.records; },
+        [](Scene & s) -> auto& { return s.motion.records; },
         {word("name", "file name", "name in the tables", "\"El Centro NS\"", at(&R::name)),
          word("horizontal", "required", "accelerogram file, relative to the scene file", "\"elcentro_ns.at2\"",
               at(&R::horizontal)),
@@ -265,16 +234,13 @@ std::vector<KeyGroup> motion_groups()
         &Scene::sliding,
         {word("scheme", "exact",
               "of the rigid block: exact (events located) or slammer (the trapezoid scheme of SLAMMER)", "\"slammer\"",
-              choice(&SlidingOptions::scheme,
-                     std::vector<std::pair<std::string, SlidingScheme>>{{"exact", SlidingScheme::exact},
-                                                                        {"slammer", SlidingScheme::slammer}})),
+              choice(&SlidingOptions::scheme, {{"exact", SlidingScheme::exact}, {"slammer", SlidingScheme::slammer}})),
          word("lift_off", "no-friction",
               "while the normal force is zero: no resistance (no-friction) or vertical flight and plastic impact "
               "(ballistic)",
               "\"ballistic\"",
               choice(&SlidingOptions::lift_off,
-                     std::vector<std::pair<std::string, LiftOff>>{{"no-friction", LiftOff::no_friction},
-                                                                  {"ballistic", LiftOff::ballistic}})),
+                     {{"no-friction", LiftOff::no_friction}, {"ballistic", LiftOff::ballistic}})),
          word("two_way", "true", "false: no upstream sliding", "false", at(&SlidingOptions::two_way)),
          number("run_out_max", seconds, Range::between(0, 600), "60", "integration after the record's end at most",
                 "60", at(&SlidingOptions::run_out_max)),
@@ -301,20 +267,15 @@ const Range dip_range = Range::between(0, 90);
 template <class T>
 KeyGroup wedge_list(std::string name, std::string meaning, std::vector<T> RockWedge::*list, std::vector<Key> keys)
 {
-    return {std::move(name),
-            Presence::list,
-            std::move(meaning),
-            std::move(keys),
-            [list](Scene& s) -> void* {
-                if (!s.wedge) s.wedge.emplace();
-                return &((*s.wedge).*list).emplace_back();
-            },
-            [list](const Scene& s) {
-                std::vector<const void*> items;
-                if (s.wedge)
-                    for (const T& item : (*s.wedge).*list) items.push_back(&item);
-                return items;
-            }};
+    KeyGroup group = list_group(
+        std::move(name), std::move(meaning),
+        [list](Scene & s) -> auto& {
+            if (!s.wedge) s.wedge.emplace();
+            return (*s.wedge).*list;
+        },
+        std::move(keys));
+    group.items = [items = group.items](const Scene& s) { return s.wedge ? items(s) : std::vector<const void*>(); };
+    return group;
 }
 
 KeyGroup wedge_group()
@@ -342,9 +303,7 @@ KeyGroup wedge_group()
                 "of the wedge, in place of height and surfaces", "6700", at(&W::volume)),
          word("water", "dry",
               "dry, or full: both planes are full of water that seeps out of the face, mean pressure γ_w H/6 on each",
-              "\"full\"",
-              choice(&W::water, std::vector<std::pair<std::string, WedgeWater>>{{"dry", WedgeWater::dry},
-                                                                                {"full", WedgeWater::full}})),
+              "\"full\"", choice(&W::water, {{"dry", WedgeWater::dry}, {"full", WedgeWater::full}})),
          word("cohesion_lost_at_slip", "true", "cohesion is gone from the first slip on", "false",
               at(&W::cohesion_lost_at_slip)),
          number("motion_azimuth", angle, azimuth_range, "where the wedge slides to by itself",

@@ -76,21 +76,6 @@ KeyGroup project_group()
 
 namespace {
 
-std::vector<std::pair<std::string, AddedMassFormula>> formula_words()
-{
-    std::vector<std::pair<std::string, AddedMassFormula>> words;
-    for (const AddedMassRow& row : added_mass_rows()) words.emplace_back(row.word, AddedMassFormula(words.size()));
-    return words;
-}
-
-std::string formula_meanings()
-{
-    std::string text;
-    for (const AddedMassRow& row : added_mass_rows())
-        text += (text.empty() ? "" : ", ") + row.word + (row.meaning.empty() ? "" : " (" + row.meaning + ")");
-    return text;
-}
-
 /// Left out of resolved scenes elsewhere: a floor on rock has no coefficient of its own, nor has one whose material is given; water
 /// without waves has no floor on rock.
 Key only_where_floor_is(ReservoirFloor floor, Key key)
@@ -123,11 +108,10 @@ std::vector<KeyGroup> water_groups()
               "how the water takes part in the shaking: not at all (hydrostatic), as added mass, acoustic, or by the "
               "compressibility criterion (auto)",
               "\"added-mass\"",
-              choice(&Reservoir::model,
-                     std::vector<std::pair<std::string, ReservoirModel>>{{"auto", ReservoirModel::automatic},
-                                                                         {"hydrostatic", ReservoirModel::hydrostatic},
-                                                                         {"added-mass", ReservoirModel::added_mass},
-                                                                         {"acoustic", ReservoirModel::acoustic}})),
+              choice(&Reservoir::model, {{"auto", ReservoirModel::automatic},
+                                         {"hydrostatic", ReservoirModel::hydrostatic},
+                                         {"added-mass", ReservoirModel::added_mass},
+                                         {"acoustic", ReservoirModel::acoustic}})),
          word("floor_pressure", "false", "water pressure on the reservoir floor loads the rock", "true",
               at(&Reservoir::floor_pressure)),
          word(
@@ -136,35 +120,29 @@ std::vector<KeyGroup> water_groups()
              "true", at(&Reservoir::overtopped)),
          word("surface", "free", "surface of acoustic water: p = 0, or rising and falling under gravity",
               "\"sloshing\"",
-              choice(&Reservoir::surface,
-                     std::vector<std::pair<std::string, WaterSurface>>{{"free", WaterSurface::free},
-                                                                       {"sloshing", WaterSurface::sloshing}})),
+              choice(&Reservoir::surface, {{"free", WaterSurface::free}, {"sloshing", WaterSurface::sloshing}})),
          word("far_end", "absorbing",
               "upstream end of acoustic water: waves leave it (absorbing), leave it at normal incidence only (damper), "
               "meet "
               "a wall (closed) or p = 0 (open)",
               "\"damper\"",
-              choice(&Reservoir::far_end, std::vector<std::pair<std::string, FarEnd>>{{"absorbing", FarEnd::absorbing},
-                                                                                      {"damper", FarEnd::damper},
-                                                                                      {"closed", FarEnd::closed},
-                                                                                      {"open", FarEnd::open}})),
+              choice(&Reservoir::far_end, {{"absorbing", FarEnd::absorbing},
+                                           {"damper", FarEnd::damper},
+                                           {"closed", FarEnd::closed},
+                                           {"open", FarEnd::open}})),
          word("bottom_motion", "ground",
               "the reservoir bottom moves with the ground, or is still; its dynamic pressure loads the rock with floor "
               "= \"rock\" only",
               "\"still\"",
-              choice(&Reservoir::bottom_motion,
-                     std::vector<std::pair<std::string, BottomMotion>>{{"ground", BottomMotion::ground},
-                                                                       {"still", BottomMotion::still}})),
-         only_where_floor_is(ReservoirFloor::rock, word("floor", "absorbing",
-                                                        "the floor under acoustic water: waves are absorbed by its "
-                                                        "reflection coefficient (absorbing), or it is "
-                                                        "the radiating rock of [foundation], which the water's "
-                                                        "pressure moves and which moves the water (rock)",
-                                                        "\"rock\"",
-                                                        choice(&Reservoir::floor,
-                                                               std::vector<std::pair<std::string, ReservoirFloor>>{
-                                                                   {"absorbing", ReservoirFloor::absorbing},
-                                                                   {"rock", ReservoirFloor::rock}}))),
+              choice(&Reservoir::bottom_motion, {{"ground", BottomMotion::ground}, {"still", BottomMotion::still}})),
+         only_where_floor_is(ReservoirFloor::rock,
+                             word("floor", "absorbing",
+                                  "the floor under acoustic water: waves are absorbed by its reflection coefficient "
+                                  "(absorbing), or it is the radiating rock of [foundation], which the water's "
+                                  "pressure moves and which moves the water (rock)",
+                                  "\"rock\"",
+                                  choice(&Reservoir::floor,
+                                         {{"absorbing", ReservoirFloor::absorbing}, {"rock", ReservoirFloor::rock}}))),
          only_where_floor_is(
              ReservoirFloor::absorbing,
              number("bottom_reflection", none, Range::between(-1, 1), "0.75",
@@ -178,28 +156,22 @@ std::vector<KeyGroup> water_groups()
                 at(&Reservoir::bottom_modulus)),
          number("mesh_size", length, Range::above(0), "level / 20", "element height in acoustic water", "2",
                 at(&Reservoir::mesh_size))}));
-    Key period = number(
-        "period", seconds, Range::above(0), "infinite (incompressible water)",
-        "T of Westergaard's rigorous formula (3-1): the period of excitation or dam, longer than 4 h/c; or \"dam\"",
-        "0.5", {});
-    period.slot = [](void* object) -> Slot {
-        auto* a = static_cast<AddedMass*>(object);
-        return NumberOrWord{&a->period, &a->period_of_dam, "dam"};
-    };
     groups.push_back(
         group("added_mass", "Hydrodynamic added mass, used when the reservoir moves as added mass.", &Scene::added_mass,
-              {word("formula", "westergaard", "formula: " + formula_meanings(), "\"westergaard-simplified\"",
-                    choice(&AddedMass::formula, formula_words())),
-               period,
+              {word("formula", "westergaard", "formula: " + meanings_of(added_mass_rows(), ", "),
+                    "\"westergaard-simplified\"",
+                    choice(&AddedMass::formula, choices_of<AddedMassFormula>(added_mass_rows()))),
+               number("period", seconds, Range::above(0), "infinite (incompressible water)",
+                      "T of Westergaard's rigorous formula (3-1): the period of excitation or dam, longer than 4 h/c; "
+                      "or \"dam\"",
+                      "0.5", number_or_word(&AddedMass::period, &AddedMass::period_of_dam, "dam")),
                word("inclined_face", "normal-component",
-                    "mass normal to a sloping face: m/cos(phi) (normal-component), the printed m, or of the first only the push "
-                    "downstream, without its vertical part (horizontal), as in codes and textbooks",
+                    "mass normal to a sloping face: m/cos(phi) (normal-component), the printed m, or of the first only "
+                    "the push downstream, without its vertical part (horizontal), as in codes and textbooks",
                     "\"printed\"",
-                    choice(&AddedMass::inclined_face,
-                           std::vector<std::pair<std::string, InclinedFaceRule>>{
-                               {"normal-component", InclinedFaceRule::normal_component},
-                               {"printed", InclinedFaceRule::printed},
-                               {"horizontal", InclinedFaceRule::horizontal}})),
+                    choice(&AddedMass::inclined_face, {{"normal-component", InclinedFaceRule::normal_component},
+                                                       {"printed", InclinedFaceRule::printed},
+                                                       {"horizontal", InclinedFaceRule::horizontal}})),
                pairs("zangar_table", angle, none, Range::between(0, 2), "C_m = 0.73 (1 - phi/90 deg)",
                      "Zangar's C_m over the face angle from the vertical", "[[0, 0.73], [30, 0.54]]",
                      at(&AddedMass::zangar_table))}));
@@ -231,89 +203,79 @@ std::vector<KeyGroup> water_groups()
     return groups;
 }
 
-namespace {
-
-std::vector<Key> combination_keys()
-{
-    using C = Combination;
-    std::vector<Key> keys{
-        word("name", "required", "name in the tables", "\"flood\"", at(&C::name)),
-        word(
-            "kind", "usual", "how probable: decides which required values apply", "\"unusual\"",
-            choice(&C::kind, std::vector<std::pair<std::string, CombinationKind>>{{"usual", CombinationKind::usual},
-                                                                                  {"unusual", CombinationKind::unusual},
-                                                                                  {"extreme", CombinationKind::extreme},
-                                                                                  {"post-seismic",
-                                                                                   CombinationKind::post_seismic}})),
-        word("follows", "the extreme combination after which its sliding factor is smallest",
-             "post-seismic: name of the extreme combination that opened the joint", "\"seismic\"", at(&C::follows)),
-        number("reservoir_level", length, Range::at_least(0), "reservoir.level_m", "water surface above the heel", "63",
-               at(&C::reservoir_level)),
-        number("tailwater_level", length, Range::at_least(0), "tailwater.level_m", "tailwater surface above the heel",
-               "5", at(&C::tailwater_level)),
-        word("ice", "false", "the [ice] thrust acts", "true", at(&C::ice)),
-        word("drains_effective", "true", "false: drains without effect", "false", at(&C::drains_effective)),
-        word("curtain_intact", "true", "false: ruptured curtain, linear uplift", "false", at(&C::curtain_intact)),
-        word("residual_strength", "false", "true: residual friction, no cohesion", "true", at(&C::residual_strength)),
-        word("gates_open", "false", "true: the gates of [gate] are open, the water flows over the crest", "true",
-             at(&C::gates_open)),
-        word("crack", "uplift.crack", "uplift in a base crack", "\"static\"",
-             optional_choice(&C::crack, crack_rules())),
-        number("friction", friction, Range::above(0), "contact.friction", "Coulomb mu", "0.84", at(&C::friction)),
-        number("cohesion", stress, Range::at_least(0), "contact.cohesion_kPa", "cohesion on the compressed length",
-               "100", at(&C::cohesion)),
-        number("k_h", none, Range::between(-5, 5), "0",
-               "seismic coefficient a_h / 9.80665 m/s2, positive drives downstream", "0.1", at(&C::k_h)),
-        number("k_v", none, Range::between(-5, 5), "0",
-               "seismic coefficient a_v / 9.80665 m/s2, positive up: makes the dam heavier", "-0.05", at(&C::k_v)),
-        pairs("k_profile", length, none, Range::between(0, 10), "1",
-              "factor on k_h and k_v over the height above the heel, for the dam's inertia; the water takes k_h. IS 1893: 1.5 "
-              "at the crest, 0 at the base",
-              "[[0, 0], [62.5, 1.5]]", at(&C::k_profile)),
-        number("friction_divisor", none, Range::at_least(1), "1",
-               "partial factor of safety that mu is divided by (IS 6512: F_phi)", "1.5", at(&C::friction_divisor)),
-        number("cohesion_divisor", none, Range::at_least(1), "1",
-               "partial factor of safety that the cohesion is divided by (IS 6512: F_c)", "3.6", at(&C::cohesion_divisor)),
-        number("pga_fraction", none, Range::half_open(0, 2), "none",
-               "in place of k_h: share of the largest PGA of the records, drives downstream", "0.67",
-               at(&C::pga_fraction)),
-        number("pga_v_fraction", none, Range::between(0, 2), "none",
-               "in place of k_v: share of the records' largest vertical acceleration; it lightens the dam", "0.3",
-               at(&C::pga_v_fraction)),
-        number("weight_factor", none, Range::above(0), "1", "load factor on the dam's weight", "0.9",
-               at(&C::weight_factor)),
-        number("water_factor", none, Range::at_least(0), "1", "load factor on the water pressure", "1.1",
-               at(&C::water_factor)),
-        number("uplift_factor", none, Range::at_least(0), "1", "load factor on the uplift", "1.1",
-               at(&C::uplift_factor)),
-        number("silt_factor", none, Range::at_least(0), "1", "load factor on the silt thrust", "1.1",
-               at(&C::silt_factor)),
-        number("ice_factor", none, Range::at_least(0), "1", "load factor on the ice thrust", "1.1", at(&C::ice_factor)),
-        number("required_sliding_factor", none, Range::above(0), "from criteria.document, else none",
-               "required factor of safety against sliding", "1.5", at(&C::required_sliding_factor)),
-        number("required_residual_factor", none, Range::above(0), "from criteria.document, else none",
-               "required factor of safety against sliding, of the residual strength", "1.1", at(&C::required_residual_factor)),
-        number("required_flotation_factor", none, Range::above(0), "none",
-               "required factor of safety against flotation", "1.2", at(&C::required_flotation_factor)),
-        number("required_overturning_factor", none, Range::above(0), "none",
-               "required factor of safety against overturning", "1.5", at(&C::required_overturning_factor)),
-        word("required_resultant", "none",
-             "where the resultant must lie: kern (the middle third), middle-half, or base (anywhere within it)",
-             "\"middle-half\"", at(&C::required_resultant)),
-        word("source", "empty", "document the required values are taken from", "\"EM 1110-2-2100, table 3-2\"",
-             at(&C::source))};
-    return keys;
-}
-
-} // namespace
-
 KeyGroup combination_group()
 {
-    return list_group<Combination>(
+    using C = Combination;
+    return list_group(
         "combination",
         "A load combination of the limit equilibrium. None given: usual, seismic and post-seismic are made from the "
         "scene.",
-        [](Scene& s) -> std::vector<Combination>& { return s.combinations; }, combination_keys());
+        &Scene::combinations,
+        {word("name", "required", "name in the tables", "\"flood\"", at(&C::name)),
+         word("kind", "usual", "how probable: decides which required values apply", "\"unusual\"",
+              choice(&C::kind, {{"usual", CombinationKind::usual},
+                                {"unusual", CombinationKind::unusual},
+                                {"extreme", CombinationKind::extreme},
+                                {"post-seismic", CombinationKind::post_seismic}})),
+         word("follows", "the extreme combination after which its sliding factor is smallest",
+              "post-seismic: name of the extreme combination that opened the joint", "\"seismic\"", at(&C::follows)),
+         number("reservoir_level", length, Range::at_least(0), "reservoir.level_m", "water surface above the heel",
+                "63", at(&C::reservoir_level)),
+         number("tailwater_level", length, Range::at_least(0), "tailwater.level_m", "tailwater surface above the heel",
+                "5", at(&C::tailwater_level)),
+         word("ice", "false", "the [ice] thrust acts", "true", at(&C::ice)),
+         word("drains_effective", "true", "false: drains without effect", "false", at(&C::drains_effective)),
+         word("curtain_intact", "true", "false: ruptured curtain, linear uplift", "false", at(&C::curtain_intact)),
+         word("residual_strength", "false", "true: residual friction, no cohesion", "true", at(&C::residual_strength)),
+         word("gates_open", "false", "true: the gates of [gate] are open, the water flows over the crest", "true",
+              at(&C::gates_open)),
+         word("crack", "uplift.crack", "uplift in a base crack", "\"static\"", choice(&C::crack, crack_rules())),
+         number("friction", friction, Range::above(0), "contact.friction", "Coulomb mu", "0.84", at(&C::friction)),
+         number("cohesion", stress, Range::at_least(0), "contact.cohesion_kPa", "cohesion on the compressed length",
+                "100", at(&C::cohesion)),
+         number("k_h", none, Range::between(-5, 5), "0",
+                "seismic coefficient a_h / 9.80665 m/s2, positive drives downstream", "0.1", at(&C::k_h)),
+         number("k_v", none, Range::between(-5, 5), "0",
+                "seismic coefficient a_v / 9.80665 m/s2, positive up: makes the dam heavier", "-0.05", at(&C::k_v)),
+         pairs("k_profile", length, none, Range::between(0, 10), "1",
+               "factor on k_h and k_v over the height above the heel, for the dam's inertia; the water takes k_h. IS "
+               "1893: 1.5 at the crest, 0 at the base",
+               "[[0, 0], [62.5, 1.5]]", at(&C::k_profile)),
+         number("friction_divisor", none, Range::at_least(1), "1",
+                "partial factor of safety that mu is divided by (IS 6512: F_phi)", "1.5", at(&C::friction_divisor)),
+         number("cohesion_divisor", none, Range::at_least(1), "1",
+                "partial factor of safety that the cohesion is divided by (IS 6512: F_c)", "3.6",
+                at(&C::cohesion_divisor)),
+         number("pga_fraction", none, Range::half_open(0, 2), "none",
+                "in place of k_h: share of the largest PGA of the records, drives downstream", "0.67",
+                at(&C::pga_fraction)),
+         number("pga_v_fraction", none, Range::between(0, 2), "none",
+                "in place of k_v: share of the records' largest vertical acceleration; it lightens the dam", "0.3",
+                at(&C::pga_v_fraction)),
+         number("weight_factor", none, Range::above(0), "1", "load factor on the dam's weight", "0.9",
+                at(&C::weight_factor)),
+         number("water_factor", none, Range::at_least(0), "1", "load factor on the water pressure", "1.1",
+                at(&C::water_factor)),
+         number("uplift_factor", none, Range::at_least(0), "1", "load factor on the uplift", "1.1",
+                at(&C::uplift_factor)),
+         number("silt_factor", none, Range::at_least(0), "1", "load factor on the silt thrust", "1.1",
+                at(&C::silt_factor)),
+         number("ice_factor", none, Range::at_least(0), "1", "load factor on the ice thrust", "1.1",
+                at(&C::ice_factor)),
+         number("required_sliding_factor", none, Range::above(0), "from criteria.document, else none",
+                "required factor of safety against sliding", "1.5", at(&C::required_sliding_factor)),
+         number("required_residual_factor", none, Range::above(0), "from criteria.document, else none",
+                "required factor of safety against sliding, of the residual strength", "1.1",
+                at(&C::required_residual_factor)),
+         number("required_flotation_factor", none, Range::above(0), "none",
+                "required factor of safety against flotation", "1.2", at(&C::required_flotation_factor)),
+         number("required_overturning_factor", none, Range::above(0), "none",
+                "required factor of safety against overturning", "1.5", at(&C::required_overturning_factor)),
+         word("required_resultant", "none",
+              "where the resultant must lie: kern (the middle third), middle-half, or base (anywhere within it)",
+              "\"middle-half\"", at(&C::required_resultant)),
+         word("source", "empty", "document the required values are taken from", "\"EM 1110-2-2100, table 3-2\"",
+              at(&C::source))});
 }
 
 } // namespace damslip::keys

@@ -53,8 +53,7 @@ std::optional<Meant> other_unit(const Key& key, const WrittenNumber& number)
             continue;
         const double value = in_first_unit(number.value, unit, key.units.front());
         if (!key.usual->contains(value) || value == 0.0) continue;
-        const std::string key_name = unit.suffix.empty() ? key.name : key.name + "_" + unit.suffix;
-        return Meant{value, name_of(unit) + " was meant", key_name + " = " + shortest(number.value)};
+        return Meant{value, name_of(unit) + " was meant", key.spelled(unit) + " = " + shortest(number.value)};
     }
     return std::nullopt;
 }
@@ -176,25 +175,24 @@ namespace {
 /// A value beside another one it is usually in proportion to.
 struct Proportion {
     const char* key;     ///< "curtain.depth", where the note stands
-    const char* written; ///< "curtain.depth_m"
     double value;        ///< [m]
     double length;       ///< [m]
     const char* of;      ///< "the dam's height"
     double low, high;    ///< of value / length
     const char* source;
+    std::string written = std::string(key) + "_m";
 };
 
 void look_at(const Proportion& p, Findings& f)
 {
     const double ratio = p.value / p.length;
     if (ratio >= p.low * (1 - 1e-9) && ratio <= p.high * (1 + 1e-9)) return;
-    Diagnostic note;
-    note.problem = fmt::format("{} = {} is unusual: {} times {}, {} m.", p.written, six_digits(p.value),
-                               six_digits(ratio), p.of, six_digits(p.length));
-    note.expected = fmt::format("{} ... {} m, {} ... {} times {} ({})", six_digits(p.low * p.length),
-                                six_digits(p.high * p.length), six_digits(p.low), six_digits(p.high), p.of, p.source);
-    note.fix = "check value and unit";
-    f.note(p.key, note);
+    f.note(p.key,
+           fmt::format("{} = {} is unusual: {} times {}, {} m.", p.written, six_digits(p.value), six_digits(ratio),
+                       p.of, six_digits(p.length)),
+           fmt::format("{} ... {} m, {} ... {} times {} ({})", six_digits(p.low * p.length),
+                       six_digits(p.high * p.length), six_digits(p.low), six_digits(p.high), p.of, p.source),
+           "check value and unit");
 }
 
 double height_of(const Section& section)
@@ -221,7 +219,7 @@ void look_at_shape(const Scene& s, Findings& f)
     if (s.section.rock_slope) return;
     const char* const where = f.given("section.polygon") ? "section.polygon" : "section.base";
     look_at(
-        {where, "the section's base", base_length(s.section), height_of(s.section), "its height", 0.3, 4, "judgement"},
+        {where, base_length(s.section), height_of(s.section), "its height", 0.3, 4, "judgement", "the section's base"},
         f);
 }
 
@@ -230,35 +228,29 @@ void look_at_base(const Scene& s, Findings& f)
 {
     const double base = base_length(s.section), height = height_of(s.section);
     if (s.curtain) {
-        look_at({"curtain.distance", "curtain.distance_m", s.curtain->distance, base, "the base", 0, 1.0 / 3.0,
-                 "judgement"},
-                f);
-        look_at({"curtain.depth", "curtain.depth_m", s.curtain->depth, height, "the dam's height", 0.1, 2, "USBR 1976"},
-                f);
+        look_at({"curtain.distance", s.curtain->distance, base, "the base", 0, 1.0 / 3.0, "judgement"}, f);
+        look_at({"curtain.depth", s.curtain->depth, height, "the dam's height", 0.1, 2, "USBR 1976"}, f);
     }
-    if (s.drains)
-        look_at({"drains.distance", "drains.distance_m", s.drains->distance, base, "the base", 0, 0.5, "judgement"}, f);
+    if (s.drains) look_at({"drains.distance", s.drains->distance, base, "the base", 0, 0.5, "judgement"}, f);
     if (!s.foundation) return;
-    look_at({"foundation.width", "foundation.width_m", s.foundation->width, base, "the base", 2, 30, "judgement"}, f);
-    look_at({"foundation.depth", "foundation.depth_m", s.foundation->depth, base, "the base", 0.5, 20, "judgement"}, f);
+    look_at({"foundation.width", s.foundation->width, base, "the base", 2, 30, "judgement"}, f);
+    look_at({"foundation.depth", s.foundation->depth, base, "the base", 0.5, 20, "judgement"}, f);
 }
 
-void look_at_level(const std::string& key, const std::string& written, double level, double crest, Findings& f)
+void look_at_level(const std::string& key, double level, double crest, Findings& f)
 {
-    if (const auto note = unusual_level(fmt::format("{} = {}", written, six_digits(level)), level, crest))
+    if (const auto note = unusual_level(fmt::format("{}_m = {}", key, six_digits(level)), level, crest))
         f.note(key, *note);
 }
 
 /// A level that is above another one it usually is below.
-void look_at_order(const std::string& key, const std::string& written, double level, const std::string& other,
-                   double above, const char* reason, Findings& f)
+void look_at_order(const std::string& key, double level, const std::string& other, double above, const char* reason,
+                   Findings& f)
 {
     if (level <= above * (1 + 1e-9)) return;
-    Diagnostic note;
-    note.problem = fmt::format("{} = {} is above {} = {}.", written, six_digits(level), other, six_digits(above));
-    note.expected = fmt::format("at most {}: {} (judgement)", six_digits(above), reason);
-    note.fix = "check datum and unit: both are measured from the heel";
-    f.note(key, note);
+    f.note(key, fmt::format("{}_m = {} is above {} = {}.", key, six_digits(level), other, six_digits(above)),
+           fmt::format("at most {}: {} (judgement)", six_digits(above), reason),
+           "check datum and unit: both are measured from the heel");
 }
 
 void look_at_ice(const Scene& s, Findings& f)
@@ -266,13 +258,12 @@ void look_at_ice(const Scene& s, Findings& f)
     if (!s.ice || !s.reservoir || !f.given("ice.level")) return;
     const double below = s.reservoir->level - s.ice->level;
     if (below >= -1e-9 && below <= 2) return;
-    Diagnostic note;
-    note.problem =
-        fmt::format("ice.level_m = {} is {} m {} the water surface, reservoir.level_m = {}.", six_digits(s.ice->level),
-                    six_digits(std::abs(below)), below > 0 ? "below" : "above", six_digits(s.reservoir->level));
-    note.expected = "0 ... 2 m below the surface, on which the ice floats (judgement)";
-    note.fix = "leave level_m out: the ice then acts at the water surface";
-    f.note("ice.level", note);
+    f.note("ice.level",
+           fmt::format("ice.level_m = {} is {} m {} the water surface, reservoir.level_m = {}.",
+                       six_digits(s.ice->level), six_digits(std::abs(below)), below > 0 ? "below" : "above",
+                       six_digits(s.reservoir->level)),
+           "0 ... 2 m below the surface, on which the ice floats (judgement)",
+           "leave level_m out: the ice then acts at the water surface");
 }
 
 void look_at_water(const Scene& s, Findings& f)
@@ -281,21 +272,18 @@ void look_at_water(const Scene& s, Findings& f)
     const double crest = crest_level(s.section);
     const double reservoir = s.reservoir ? s.reservoir->level : 0.0;
     if (s.reservoir) {
-        look_at_level("reservoir.level", "reservoir.level_m", reservoir, crest, f);
+        look_at_level("reservoir.level", reservoir, crest, f);
         if (reservoir > 0.0 && f.given("reservoir.length"))
-            look_at({"reservoir.length", "reservoir.length_m", s.reservoir->length, reservoir, "the water's depth", 0.5,
-                     10, "judgement"},
-                    f);
+            look_at({"reservoir.length", s.reservoir->length, reservoir, "the water's depth", 0.5, 10, "judgement"}, f);
     }
     if (s.tailwater && s.reservoir)
-        look_at_order("tailwater.level", "tailwater.level_m", s.tailwater->level, "reservoir.level_m", reservoir,
+        look_at_order("tailwater.level", s.tailwater->level, "reservoir.level_m", reservoir,
                       "water downstream of the dam stands lower than upstream", f);
     if (s.drains && s.drains->gallery_level && s.reservoir)
-        look_at_order("drains.gallery_level", "drains.gallery_level_m", *s.drains->gallery_level, "reservoir.level_m",
-                      reservoir, "drains draw the pressure down to the gallery", f);
+        look_at_order("drains.gallery_level", *s.drains->gallery_level, "reservoir.level_m", reservoir,
+                      "drains draw the pressure down to the gallery", f);
     if (s.silt && s.reservoir)
-        look_at_order("silt.level", "silt.level_m", s.silt->level, "reservoir.level_m", reservoir,
-                      "silt settles under water", f);
+        look_at_order("silt.level", s.silt->level, "reservoir.level_m", reservoir, "silt settles under water", f);
     look_at_ice(s, f);
 }
 
@@ -307,11 +295,11 @@ void look_at_combinations(const Scene& s, Findings& f)
         const std::string label = fmt::format("combination[{}]", i + 1);
         const double crest = crest_level(s.section);
         if (c.reservoir_level && (c.kind == CombinationKind::usual || *c.reservoir_level > 1.1 * crest))
-            look_at_level(label + ".reservoir_level", label + ".reservoir_level_m", *c.reservoir_level, crest, f);
+            look_at_level(label + ".reservoir_level", *c.reservoir_level, crest, f);
         const double upstream = c.reservoir_level.value_or(s.reservoir ? s.reservoir->level : 0.0);
         if (c.tailwater_level && s.reservoir)
-            look_at_order(label + ".tailwater_level", label + ".tailwater_level_m", *c.tailwater_level, "the reservoir",
-                          upstream, "water downstream of the dam stands lower than upstream", f);
+            look_at_order(label + ".tailwater_level", *c.tailwater_level, "the reservoir", upstream,
+                          "water downstream of the dam stands lower than upstream", f);
     }
 }
 
@@ -383,6 +371,7 @@ constexpr std::array rows{
     Row{"dam.fracture_energy_tension", 10, 500, "Bazant & Oh 1983"},
     Row{"dam.fracture_energy_shear", 50, 20000, judgement},
 
+    // Lift joints, lifts and seams have these for what they have no row of their own for.
     Row{"contact.friction", 0.1, 1.6, joints},
     Row{"contact.cohesion", 1, 3000, bond, true},
     Row{"contact.max_slip", 0.1, 20, judgement},
@@ -403,32 +392,15 @@ constexpr std::array rows{
     Row{"contact.relaxation_slip", 1e-5, 0.1, judgement},
     Row{"contact.restitution", 0, 0.8, judgement},
     Row{"lift_joint.elevation", -300, 300, "ICOLD register"},
-    Row{"lift_joint.friction", 0.1, 1.6, joints},
     Row{"lift_joint.cohesion", 1, 4000, bond, true},
-    Row{"lift_joint.residual_friction", 0.1, 1.2, joints},
-    Row{"lift_joint.residual_slip", 1e-4, 0.5, judgement, true},
-    Row{"lift_joint.friction_table", 0.1, 1.6, joints},
     Row{"lift_joint.tensile_strength", 0, 4000, bond, true},
-    Row{"lift_joint.fracture_energy_tension", 10, 500, "Bazant & Oh 1983"},
-    Row{"lift_joint.fracture_energy_shear", 50, 20000, judgement},
-    Row{"lift_joint.dynamic_increase", 1, 1.5, "Raphael 1984"},
-    Row{"lift_joint.kinetic_friction_ratio", 0.5, 1.1, judgement},
-    Row{"lift_joint.characteristic_rate", 1e-4, 1, judgement},
-    Row{"lift_joint.relaxation_time", 1e-3, 1, judgement},
-    Row{"lift_joint.relaxation_slip", 1e-5, 0.1, judgement},
 
     Row{"lifts.spacing", 0.3, 30, judgement},
     Row{"lifts.elevations", -300, 300, "ICOLD register"},
     Row{"lifts.from", -300, 300, "ICOLD register"},
     Row{"lifts.to", -300, 300, "ICOLD register"},
-    Row{"lifts.friction", 0.1, 1.6, joints},
     Row{"lifts.cohesion", 1, 4000, bond, true},
-    Row{"lifts.residual_friction", 0.1, 1.2, joints},
-    Row{"lifts.residual_slip", 1e-4, 0.5, judgement, true},
     Row{"lifts.tensile_strength", 0, 4000, bond, true},
-    Row{"lifts.fracture_energy_tension", 10, 500, "Bazant & Oh 1983"},
-    Row{"lifts.fracture_energy_shear", 50, 20000, judgement},
-    Row{"lifts.dynamic_increase", 1, 1.5, "Raphael 1984"},
     Row{"lifts.drains_distance", 0.5, 30, judgement},
     Row{"lifts.drains_efficiency", 0, 0.75, "EM 1110-2-2200"},
     Row{"lifts.gallery_level", -30, 300, judgement},
@@ -438,11 +410,7 @@ constexpr std::array rows{
     Row{"lifts.amplification_points", 0.5, 8, "Fenves & Chopra 1984"},
     Row{"seam.depth", 0.2, 100, judgement},
     Row{"seam.dip", -30, 30, judgement},
-    Row{"seam.friction", 0.1, 1.6, joints},
     Row{"seam.cohesion", 1, 3000, rock_weight, true},
-    Row{"seam.residual_friction", 0.1, 1.2, joints},
-    Row{"seam.residual_slip", 1e-4, 0.5, judgement, true},
-    Row{"seam.friction_table", 0.1, 1.6, joints},
     Row{"seam.uplift_points", 0, 1, "EM 1110-2-2200"},
     Row{"seam.dilation", 0, 20, "Barton & Choubey 1977"},
     Row{"seam.dilation_slip", 0.001, 0.5, judgement},
@@ -627,7 +595,9 @@ void add_usual_ranges(std::vector<KeyGroup>& groups)
     }();
     for (KeyGroup& group : groups)
         for (Key& key : group.keys) {
-            const auto row = by_key.find(group.name + "." + key.name);
+            auto row = by_key.find(group.name + "." + key.name);
+            const bool joint = group.name == "lift_joint" || group.name == "lifts" || group.name == "seam";
+            if (row == by_key.end() && joint) row = by_key.find("contact." + key.name);
             if (row == by_key.end()) continue;
             const Row& r = *row->second;
             key.usual = Usual{r.low, r.high, r.source, r.or_zero};

@@ -90,7 +90,7 @@ private:
         for (const Key& key : group_.keys) {
             if (key.units.empty() && key.name == spelling) return {&key, {}};
             for (const UnitSuffix& unit : key.units)
-                if ((unit.suffix.empty() ? key.name : key.name + "_" + unit.suffix) == spelling) return {&key, unit};
+                if (key.spelled(unit) == spelling) return {&key, unit};
         }
         return {nullptr, {}};
     }
@@ -209,15 +209,15 @@ private:
     void assign(const Key& key, const UnitSuffix& unit, const std::string& spelling, const toml::node& node,
                 void* object)
     {
-        const Slot slot = key.slot(object);
+        const Slot slot = key.value.slot(object);
         if (auto* const* d = std::get_if<double*>(&slot)) {
             if (const auto v = number_of(key, unit, spelling, node)) **d = *v;
         } else if (auto* const* o = std::get_if<std::optional<double>*>(&slot)) {
             if (const auto v = number_of(key, unit, spelling, node)) **o = *v;
         } else if (const auto* either = std::get_if<NumberOrWord>(&slot)) {
-            if (node.value<std::string>() == either->word)
+            if (node.value<std::string>() == key.value.words.front())
                 *either->word_given = true;
-            else if (const auto v = number_of(key, unit, spelling, node, " or \"" + either->word + "\""))
+            else if (const auto v = number_of(key, unit, spelling, node, " or \"" + key.value.words.front() + "\""))
                 *either->number = *v;
         } else if (auto* const* i = std::get_if<int*>(&slot)) {
             if (const auto v = whole_number(key, spelling, node)) **i = *v;
@@ -252,15 +252,16 @@ private:
 
     void read_choice(const Key& key, const Choice& choice, const std::string& spelling, const toml::node& node)
     {
+        const std::vector<std::string>& words = key.value.words;
         const auto word = node.value_exact<std::string>();
-        for (std::size_t i = 0; word && i < choice.words.size(); ++i)
-            if (choice.words[i] == *word) return choice.set(static_cast<int>(i));
-        const std::string_view near = word ? nearest(*word, choice.words) : std::string_view{};
+        for (std::size_t i = 0; word && i < words.size(); ++i)
+            if (words[i] == *word) return choice.set(static_cast<int>(i));
+        const std::string_view near = word ? nearest(*word, words) : std::string_view{};
         findings_.wrong_at(
             place_of(node.source()),
             fmt::format("{} = {} is not allowed.", full_name(label_, spelling), value_text(node)),
-            fmt::format("one of \"{}\": {}", fmt::join(choice.words, "\", \""), key.meaning),
-            fmt::format("write  {} = \"{}\"", key.name, near.empty() ? choice.words.front() : std::string(near)));
+            fmt::format("one of \"{}\": {}", fmt::join(words, "\", \""), key.meaning),
+            fmt::format("write  {} = \"{}\"", key.name, near.empty() ? words.front() : std::string(near)));
     }
 
     /// Names and titles stand in tables and in notes of one line.

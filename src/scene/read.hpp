@@ -13,7 +13,7 @@ enum class FileCheck {
     skip        ///< they are not looked for (fuzzing, parsing from memory)
 };
 
-/// Reads and checks a scene file: TOML, keys of keys.cpp, consistency between keys (check.cpp), defaults filled in, SI.
+/// Reads and checks a scene file: TOML, keys of keys.cpp, consistency between keys (check_*.cpp), defaults filled in, SI.
 /// @throws InputError with everything that is wrong at once, each with file, line, column, value, what is allowed, and
 /// a fix.
 Scene read_scene(const std::filesystem::path& file);

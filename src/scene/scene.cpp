@@ -25,11 +25,18 @@ void fill_crack_water(Scene& scene, const Findings& findings)
     if (!scene.uplift) scene.uplift.emplace().model = UpliftModel::linear;
 }
 
-void name_parts(RockWedge& wedge)
+/// "lift joint 2", where the file has no name for it.
+template <class List>
+void name_by_number(List& list, const char* what)
 {
-    for (std::size_t i = 0; i < wedge.planes.size(); ++i)
-        if (wedge.planes[i].name.empty()) wedge.planes[i].name = fmt::format("plane {}", i + 1);
-    for (WedgeForce& force : wedge.forces)
+    for (std::size_t i = 0; i < list.size(); ++i)
+        if (list[i].name.empty()) list[i].name = fmt::format("{} {}", what, i + 1);
+}
+
+template <class List>
+void name_forces(List& forces)
+{
+    for (auto& force : forces)
         if (force.name.empty()) force.name = "force";
 }
 
@@ -38,7 +45,8 @@ void name_parts(RockWedge& wedge)
 void fill_defaults(Scene& scene, const Findings& findings)
 {
     if (scene.wedge) {
-        name_parts(*scene.wedge);
+        name_by_number(scene.wedge->planes, "plane");
+        name_forces(scene.wedge->forces);
         if (!scene.wedge->planes.empty())
             scene.contact.friction = scene.wedge->planes.front().friction; // see with_friction
         return;
@@ -68,14 +76,13 @@ void fill_defaults(Scene& scene, const Findings& findings)
                               : scene.curtain               ? UpliftModel::seepage
                               : scene.drains                ? UpliftModel::drains
                                                             : UpliftModel::linear;
-    for (PointForce& force : scene.forces)
-        if (force.name.empty()) force.name = "force";
-    for (std::size_t i = 0; i < scene.lift_joints.size(); ++i)
-        if (scene.lift_joints[i].name.empty()) scene.lift_joints[i].name = fmt::format("lift joint {}", i + 1);
+    name_forces(scene.forces);
+    name_by_number(scene.lift_joints, "lift joint");
+    name_by_number(scene.seams, "seam");
+    name_by_number(scene.anchors, "anchor");
     for (std::size_t i = 0; i < scene.seams.size(); ++i) {
         Seam& seam = scene.seams[i];
         const std::string label = fmt::format("seam[{}]", i + 1);
-        if (seam.name.empty()) seam.name = fmt::format("seam {}", i + 1);
         if (!findings.given(label + ".exit") && seam.wedge) seam.exit = SeamExit::wedge;
         if (!findings.given(label + ".uplift"))
             seam.uplift = !seam.uplift_points.empty() ? UpliftModel::points
@@ -84,7 +91,6 @@ void fill_defaults(Scene& scene, const Findings& findings)
     }
     for (std::size_t i = 0; i < scene.anchors.size(); ++i) {
         Anchor& anchor = scene.anchors[i];
-        if (anchor.name.empty()) anchor.name = fmt::format("anchor {}", i + 1);
         if (anchor.prestress == 0.0 && !findings.given(fmt::format("anchor[{}].limit_force", i + 1)))
             anchor.limit_force = AnchorForceRule::yield;
     }

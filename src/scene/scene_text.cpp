@@ -5,7 +5,6 @@
 #include "core/text.hpp"
 #include "core/units.hpp"
 #include "scene/findings.hpp"
-#include "scene/fragility_keys.hpp"
 #include "scene/key_table.hpp"
 #include "scene/keys.hpp"
 #include "scene/plausible.hpp"
@@ -33,25 +32,9 @@ struct SceneText::Tables {
 namespace {
 
 /// Can a key of this kind be set to a number, a word, true or false?
-bool settable(const Slot& slot)
+bool settable(const Key& key)
 {
-    return std::holds_alternative<double*>(slot) || std::holds_alternative<std::optional<double>*>(slot) ||
-           std::holds_alternative<int*>(slot) || std::holds_alternative<std::optional<int>*>(slot) ||
-           std::holds_alternative<bool*>(slot) || std::holds_alternative<Choice>(slot) ||
-           std::holds_alternative<NumberOrWord>(slot) ||
-           (std::holds_alternative<Numbers>(slot) && std::get<Numbers>(slot).one);
-}
-
-bool whole(const Slot& slot)
-{
-    return std::holds_alternative<int*>(slot) || std::holds_alternative<std::optional<int>*>(slot);
-}
-
-Slot slot_of(const KeyGroup& group, const Key& key)
-{
-    static thread_local Scene probe;
-    probe = Scene();
-    return key.slot(group.open(probe));
+    return key.value.kind <= ValueKind::word;
 }
 
 /// "lift_joint[crown].friction" -> group "lift_joint", entry "crown", key "friction"; "seam[A].wedge.friction" -> "seam.wedge", "A", "friction".
@@ -87,7 +70,7 @@ std::optional<Target> find(const std::vector<KeyGroup>& groups, const std::strin
         if (group.name != path.group || group.in_list() == path.entry.empty()) continue;
         for (const Key& key : group.keys) {
             const std::vector<std::string> names = key.spellings();
-            if (std::find(names.begin(), names.end(), path.key) != names.end() && settable(slot_of(group, key)))
+            if (std::find(names.begin(), names.end(), path.key) != names.end() && settable(key))
                 return Target{&group, &key, path.entry};
         }
     }
@@ -104,12 +87,23 @@ std::string entry_name(const toml::table& entry, std::size_t i)
                              const std::vector<std::string>& known)
 {
     const std::string_view near = nearest(key, known);
-    throw InputError(Diagnostic{
-        file.string(), 0, 0,
-        fmt::format("unknown key {}.{}", key, near.empty() ? "" : fmt::format(" Did you mean {}?", near)),
+    refuse(
+        file, fmt::format("unknown key {}.{}", key, near.empty() ? "" : fmt::format(" Did you mean {}?", near)),
         "a number or a choice of the scene with its unit, such as contact.friction or reservoir.level_m; an entry of a "
         "list by its name: lift_joint[NAME].friction",
-        near.empty() ? "damslip worker SCENE lists the keys in its first line" : fmt::format("write  {}", near)});
+        near.empty() ? "damslip worker SCENE lists the keys in its first line" : fmt::format("write  {}", near));
+}
+
+/// The entry of a list that is meant by its name or its number, and its name; null: there is none.
+std::pair<toml::table*, std::string> entry_of(toml::table& root, const Target& target)
+{
+    toml::array* list = root.at_path(list_of(*target.group)).as_array();
+    for (std::size_t i = 0; list && i < list->size(); ++i)
+        if (toml::table* entry = (*list)[i].as_table())
+            if (const std::string name = entry_name(*entry, i);
+                name == target.entry || std::to_string(i + 1) == target.entry)
+                return {entry, name};
+    return {};
 }
 
 /// The table that holds the key, made where the file has none.
@@ -117,13 +111,9 @@ toml::table* table_of(toml::table& root, const Target& target)
 {
     const std::string& name = target.group->name;
     if (target.group->in_list()) {
-        toml::array* list = root.at_path(list_of(*target.group)).as_array();
-        for (std::size_t i = 0; list && i < list->size(); ++i) {
-            toml::table* entry = (*list)[i].as_table();
-            if (entry && (entry_name(*entry, i) == target.entry || std::to_string(i + 1) == target.entry))
-                return target.group->inside ? (*entry)[name.substr(name.find('.') + 1)].as_table() : entry;
-        }
-        return nullptr;
+        toml::table* const entry = entry_of(root, target).first;
+        if (!entry || !target.group->inside) return entry;
+        return (*entry)[name.substr(name.find('.') + 1)].as_table();
     }
     toml::table* at = &root;
     for (std::size_t from = 0; from < name.size();) {
@@ -197,10 +187,10 @@ toml::table SceneText::Tables::with(std::span<const KeyChange> changes, const Sc
         toml::table* table = target ? table_of(changed, *target) : nullptr;
         if (!table) refuse_key(file, change.key, of.keys());
         if (!set.emplace(table, target->key).second)
-            throw InputError(Diagnostic{file.string(), 0, 0, fmt::format("{} is set twice.", change.key),
-                                        "one value and one unit for each key", "leave one out"});
+            refuse(file, fmt::format("{} is set twice.", change.key), "one value and one unit for each key",
+                   "leave one out");
         for (const std::string& spelling : target->key->spellings()) table->erase(spelling);
-        put(*table, path_of(change.key).key, change.value, whole(slot_of(*target->group, *target->key)));
+        put(*table, path_of(change.key).key, change.value, target->key->value.kind == ValueKind::whole);
         if (change.key == "contact.friction") lower_residual(*table, change);
     }
     return changed;
@@ -229,9 +219,8 @@ double SceneText::written(const std::string& key) const
     const toml::table* table = table_of(root, *target);
     const std::optional<double> value = table ? (*table)[path_of(key).key].value<double>() : std::nullopt;
     if (!value)
-        throw InputError(Diagnostic{tables_->file.string(), 0, 0, fmt::format("{} is not in the file.", key),
-                                    "a number for a factor to multiply, in the same spelling",
-                                    fmt::format("write  {} = ...", key)});
+        refuse(tables_->file, fmt::format("{} is not in the file.", key),
+               "a number for a factor to multiply, in the same spelling", fmt::format("write  {} = ...", key));
     return *value;
 }
 
@@ -240,8 +229,7 @@ std::vector<std::string> SceneText::keys() const
     std::vector<std::string> names;
     const auto add = [&names](const KeyGroup& group, const std::string& label) {
         for (const Key& key : group.keys)
-            if (settable(slot_of(group, key)))
-                names.push_back(label.empty() ? key.canonical() : label + "." + key.canonical());
+            if (settable(key)) names.push_back(label.empty() ? key.canonical() : label + "." + key.canonical());
     };
     const bool wedge = tables_->root.contains("wedge");
     for (const KeyGroup& group : tables_->groups) {
@@ -263,9 +251,8 @@ std::vector<std::string> SceneText::words(const std::string& key) const
 {
     const std::optional<Target> target = find(tables_->groups, key);
     if (!target) refuse_key(tables_->file, key, keys());
-    const Slot slot = slot_of(*target->group, *target->key);
-    const auto* choice = std::get_if<Choice>(&slot);
-    return choice ? choice->words : std::vector<std::string>{};
+    const Value& value = target->key->value;
+    return value.kind == ValueKind::word ? value.words : std::vector<std::string>{};
 }
 
 std::string SceneText::canonical(const std::string& key) const
@@ -277,14 +264,7 @@ std::string SceneText::canonical(const std::string& key) const
         toml::table root = tables_->root;
         if (!table_of(root, *target)) refuse_key(tables_->file, key, keys());
         const std::string name = list_of(*target->group), inner = label.substr(name.size());
-        const toml::array* list = root.at_path(name).as_array();
-        for (std::size_t i = 0; i < list->size(); ++i) {
-            const std::string entry = entry_name(*(*list)[i].as_table(), i);
-            if (entry == target->entry || std::to_string(i + 1) == target->entry) {
-                label = name + "[" + entry + "]" + inner;
-                break;
-            }
-        }
+        label = name + "[" + entry_of(root, *target).second + "]" + inner;
     }
     return label.empty() ? target->key->canonical() : label + "." + target->key->canonical();
 }
@@ -346,13 +326,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool is_number(const Slot& slot)
-{
-    return std::holds_alternative<double*>(slot) || std::holds_alternative<std::optional<double>*>(slot) ||
-           std::holds_alternative<NumberOrWord>(slot) ||
-           (std::holds_alternative<Numbers>(slot) && std::get<Numbers>(slot).one);
-}
-
 Json number_schema(const Range& range, double canonical_to_unit)
 {
     Json j{{"type", "number"}};
@@ -370,59 +343,85 @@ Json usual_schema(const Usual& usual, const UnitSuffix& unit, const UnitSuffix& 
     return {{"minimum", in_unit(usual.low)}, {"maximum", in_unit(usual.high)}, {"source", usual.source}};
 }
 
-Json value_schema(const Key& key, const UnitSuffix& unit, const Slot& slot)
+/// A law in braces: its numbers.
+Json law_schema(const Key& key)
 {
-    if (is_number(slot)) {
-        const Range degrees{0, 89.9, false, true};
-        Json j = unit.tangent ? number_schema(degrees, 1.0)
-                              : number_schema(key.range, key.units.front().factor / unit.factor);
-        if (const auto* either = std::get_if<NumberOrWord>(&slot)) return {{"anyOf", {j, {{"const", either->word}}}}};
+    Json properties = Json::object(), required = Json::array();
+    for (const LawNumber& number : key.numbers) {
+        properties[number.name] = number_schema(number.positive ? Range::above(0) : Range::any(), 1.0);
+        if (number.required) required.push_back(number.name);
+    }
+    Json j{{"type", "object"}, {"additionalProperties", false}, {"properties", properties}};
+    if (!required.empty()) j["required"] = required;
+    return j;
+}
+
+/// @param unit  of one spelling @param first  of the range
+Json value_schema(const Key& key, const UnitSuffix& unit, const UnitSuffix& first)
+{
+    const Json number = unit.tangent ? number_schema({0, 89.9, false, true}, 1.0)
+                                     : number_schema(key.range, first.factor / unit.factor);
+    const Json text{{"type", "string"}, {"minLength", 1}};
+    switch (key.value.kind) {
+    case ValueKind::number:
+        return number;
+    case ValueKind::number_or_word:
+        return {{"anyOf", {number, {{"const", key.value.words.front()}}}}};
+    case ValueKind::whole: {
+        Json j = number;
+        j["type"] = "integer";
         return j;
     }
-    if (std::holds_alternative<Numbers>(slot) || std::holds_alternative<Ends>(slot)) {
-        Json j{{"type", "array"},
-               {"minItems", std::holds_alternative<Ends>(slot) ? 2 : 1},
-               {"items", number_schema(key.range, key.units.front().factor / unit.factor)}};
-        if (std::holds_alternative<Ends>(slot)) j["maxItems"] = 2;
-        return j;
-    }
-    if (std::holds_alternative<int*>(slot) || std::holds_alternative<std::optional<int>*>(slot))
-        return {{"type", "integer"}};
-    if (std::holds_alternative<bool*>(slot)) return {{"type", "boolean"}};
-    if (const auto* c = std::get_if<Choice>(&slot)) return {{"enum", c->words}};
-    if (std::holds_alternative<std::vector<Point>*>(slot))
+    case ValueKind::flag:
+        return {{"type", "boolean"}};
+    case ValueKind::word:
+        return {{"enum", key.value.words}};
+    case ValueKind::text:
+        return text;
+    case ValueKind::texts:
+        return {{"type", "array"}, {"minItems", 1}, {"items", text}};
+    case ValueKind::numbers:
+        return {{"type", "array"}, {"minItems", 1}, {"items", number}};
+    case ValueKind::ends:
+        return {{"type", "array"}, {"minItems", 2}, {"items", number}, {"maxItems", 2}};
+    case ValueKind::pairs:
         return {{"type", "array"},
                 {"minItems", 1},
                 {"items", {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", {{"type", "number"}}}}}};
-    if (std::holds_alternative<std::vector<std::string>*>(slot))
-        return {{"type", "array"}, {"minItems", 1}, {"items", {{"type", "string"}, {"minLength", 1}}}};
-    return {{"type", "string"}, {"minLength", 1}};
+    case ValueKind::text_or_list:
+        return {{"anyOf", {text, {{"type", "array"}, {"minItems", 1}, {"items", text}}}}};
+    case ValueKind::names:
+        return {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", text}};
+    case ValueKind::law:
+        return law_schema(key);
+    case ValueKind::discrete: {
+        const Json weights{{"type", "array"}, {"minItems", 1}, {"items", number_schema(Range::above(0), 1.0)}};
+        return {{"type", "object"},
+                {"additionalProperties", false},
+                {"required", {"values", "weights"}},
+                {"properties", {{"values", {{"type", "array"}, {"minItems", 1}}}, {"weights", weights}}}};
+    }
+    }
+    return {};
 }
 
-/// A Scene with every optional table present, so that each key has a place to look at.
-Slot probe(const KeyGroup& group, const Key& key, Scene& scene)
-{
-    return key.slot(group.open(scene));
-}
-
-Json group_schema(const KeyGroup& group, Scene& scene)
+Json group_schema(const KeyGroup& group)
 {
     Json properties = Json::object();
     Json required = Json::array();
     Json one_of_spellings = Json::array();
     for (const Key& key : group.keys) {
-        const Slot slot = probe(group, key, scene);
         const Units units = key.units.empty() ? Units{{"", 1.0}} : key.units;
+        const bool says_default = !key.default_text.empty() && (key.value.slot || !key.required);
         Json spellings = Json::array();
         for (const UnitSuffix& unit : units) {
-            Json schema = value_schema(key, unit, slot);
-            schema["description"] = key.meaning + (key.default_text.empty() ? "" : ". Default: " + key.default_text);
+            Json schema = value_schema(key, unit, units.front());
+            schema["description"] = key.meaning + (says_default ? ". Default: " + key.default_text : "");
             if (key.usual)
                 schema["usual"] = key.second_units.empty() ? usual_schema(*key.usual, unit, units.front())
                                                            : usual_schema(*key.usual, {}, {});
-            const std::string name = unit.suffix.empty() ? key.name : key.name + "_" + unit.suffix;
-            properties[name] = schema;
-            spellings.push_back({{"required", {name}}});
+            properties[key.spelled(unit)] = schema;
+            spellings.push_back({{"required", {key.spelled(unit)}}});
         }
         if (!key.required) continue;
         if (spellings.size() == 1)
@@ -445,19 +444,40 @@ std::string escaped(std::string text)
     return text;
 }
 
-std::string allowed(const Key& key, const Slot& slot)
+/// "> 0", "`true`, `false`", "`sobol`, `lhs`, `random`".
+std::string allowed(const Key& key)
 {
-    if (const auto* c = std::get_if<Choice>(&slot)) return fmt::format("`{}`", fmt::join(c->words, "`, `"));
-    if (std::holds_alternative<bool*>(slot)) return "`true`, `false`";
-    if (std::holds_alternative<int*>(slot) || std::holds_alternative<std::optional<int>*>(slot)) return "whole number";
-    if (const auto* either = std::get_if<NumberOrWord>(&slot))
-        return key.range.text() + " or `\"" + either->word + "\"`";
-    if (is_number(slot)) return key.range.text();
-    if (std::holds_alternative<std::vector<Point>*>(slot)) return "list of pairs, second entry " + key.range.text();
-    if (std::holds_alternative<std::vector<std::string>*>(slot)) return "list of texts";
-    if (std::holds_alternative<Numbers>(slot)) return "list of numbers, each " + key.range.text();
-    if (std::holds_alternative<Ends>(slot)) return "two numbers, each " + key.range.text();
-    return "text";
+    const std::string range = key.range.text();
+    switch (key.value.kind) {
+    case ValueKind::number:
+        return range;
+    case ValueKind::number_or_word:
+        return range + " or `\"" + key.value.words.front() + "\"`";
+    case ValueKind::whole:
+        return key.value.slot ? "whole number" : "whole number, " + range;
+    case ValueKind::flag:
+        return "`true`, `false`";
+    case ValueKind::word:
+        return fmt::format("`{}`", fmt::join(key.value.words, "`, `"));
+    case ValueKind::text:
+        return "text";
+    case ValueKind::texts:
+        return "list of texts";
+    case ValueKind::numbers:
+        return (key.value.slot ? "list of numbers, each " : "list of numbers ") + range;
+    case ValueKind::ends:
+        return "two numbers, each " + range;
+    case ValueKind::pairs:
+        return "list of pairs, second entry " + range;
+    case ValueKind::text_or_list:
+        return "text, or list of texts";
+    case ValueKind::names:
+        return "two names";
+    case ValueKind::law:
+    case ValueKind::discrete:
+        return fmt::format("`{}`", key.example);
+    }
+    return {};
 }
 
 std::string usual_cell(const Key& key)
@@ -465,100 +485,6 @@ std::string usual_cell(const Key& key)
     if (!key.usual) return "";
     return fmt::format("{} ... {}{} ({})", shortest(key.usual->low), shortest(key.usual->high),
                        key.usual->or_zero && !(key.usual->low <= 0.0) ? ", or 0" : "", key.usual->source);
-}
-
-/// A law in braces: its numbers.
-Json law_schema(const FragilityKey& key)
-{
-    Json properties = Json::object(), required = Json::array();
-    for (const LawNumber& number : key.numbers) {
-        properties[number.name] = number_schema(number.positive ? Range::above(0) : Range::any(), 1.0);
-        if (number.required) required.push_back(number.name);
-    }
-    Json j{{"type", "object"}, {"additionalProperties", false}, {"properties", properties}};
-    if (!required.empty()) j["required"] = required;
-    return j;
-}
-
-Json value_schema(const FragilityKey& key)
-{
-    const Json text{{"type", "string"}, {"minLength", 1}};
-    switch (key.value) {
-    case FragilityValue::number:
-        return number_schema(key.range, 1.0);
-    case FragilityValue::whole: {
-        Json j = number_schema(key.range, 1.0);
-        j["type"] = "integer";
-        return j;
-    }
-    case FragilityValue::flag:
-        return {{"type", "boolean"}};
-    case FragilityValue::word:
-        return {{"enum", key.words}};
-    case FragilityValue::text:
-        return text;
-    case FragilityValue::text_or_list:
-        return {{"anyOf", {text, {{"type", "array"}, {"minItems", 1}, {"items", text}}}}};
-    case FragilityValue::numbers:
-        return {{"type", "array"}, {"minItems", 1}, {"items", number_schema(key.range, 1.0)}};
-    case FragilityValue::names:
-        return {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", text}};
-    case FragilityValue::law:
-        return law_schema(key);
-    case FragilityValue::discrete: {
-        const Json weights{{"type", "array"}, {"minItems", 1}, {"items", number_schema(Range::above(0), 1.0)}};
-        return {{"type", "object"},
-                {"additionalProperties", false},
-                {"required", {"values", "weights"}},
-                {"properties", {{"values", {{"type", "array"}, {"minItems", 1}}}, {"weights", weights}}}};
-    }
-    }
-    return {};
-}
-
-/// "number > 0", "`sobol`, `lhs`, `random`".
-std::string allowed(const FragilityKey& key)
-{
-    switch (key.value) {
-    case FragilityValue::number:
-        return key.range.text();
-    case FragilityValue::whole:
-        return "whole number, " + key.range.text();
-    case FragilityValue::flag:
-        return "`true`, `false`";
-    case FragilityValue::word:
-        return fmt::format("`{}`", fmt::join(key.words, "`, `"));
-    case FragilityValue::text:
-        return "text";
-    case FragilityValue::text_or_list:
-        return "text, or list of texts";
-    case FragilityValue::numbers:
-        return "list of numbers " + key.range.text();
-    case FragilityValue::names:
-        return "two names";
-    case FragilityValue::law:
-    case FragilityValue::discrete:
-        return fmt::format("`{}`", key.example);
-    }
-    return {};
-}
-
-Json group_schema(const FragilityKeyTable& table)
-{
-    Json properties = Json::object(), required = Json::array();
-    for (const FragilityKey& key : table.keys) {
-        properties[key.name] = value_schema(key);
-        const bool needed = key.default_text == "required";
-        properties[key.name]["description"] =
-            key.meaning + (key.default_text.empty() || needed ? "" : ". Default: " + key.default_text);
-        if (needed) required.push_back(key.name);
-    }
-    Json j{{"type", "object"},
-           {"description", table.meaning},
-           {"additionalProperties", false},
-           {"properties", properties}};
-    if (!required.empty()) j["required"] = required;
-    return table.presence == Presence::list ? Json{{"type", "array"}, {"items", j}} : j;
 }
 
 std::string header_of(const std::string& name, Presence presence)
@@ -569,10 +495,10 @@ std::string header_of(const std::string& name, Presence presence)
 std::string fragility_markdown()
 {
     std::string out;
-    for (const FragilityKeyTable& table : fragility_key_tables()) {
+    for (const KeyGroup& table : fragility_key_tables()) {
         out += fmt::format("\n## {}\n{}\n\n| key | allowed | default | meaning |\n| --- | --- | --- | --- |\n",
                            header_of(table.name, table.presence), table.meaning);
-        for (const FragilityKey& key : table.keys)
+        for (const Key& key : table.keys)
             out += fmt::format("| `{}` | {} | {} | {} |\n", key.name, escaped(allowed(key)), escaped(key.default_text),
                                escaped(key.meaning));
     }
@@ -594,15 +520,14 @@ std::string sources_markdown()
 std::string scene_schema()
 {
     SectionInput section;
-    Scene scene;
     Json root{{"$schema", "http://json-schema.org/draft-07/schema#"},
               {"title", "damslip scene"},
               {"type", "object"},
               {"additionalProperties", false}};
     Json properties = Json::object();
     Json required = Json::array();
-    for (const KeyGroup& group : key_groups(section)) {
-        Json schema = group_schema(group, scene);
+    for (const KeyGroup& group : keys::joined({key_groups(section), fragility_key_tables()})) {
+        Json schema = group_schema(group);
         if (group.name.empty()) {
             for (auto& [name, value] : schema["properties"].items()) properties[name] = value;
             continue;
@@ -617,13 +542,6 @@ std::string scene_schema()
             required.push_back(group.name);
         properties[group.name] = schema;
     }
-    for (const FragilityKeyTable& table : fragility_key_tables()) {
-        const std::size_t dot = table.name.find('.');
-        if (dot == std::string::npos)
-            properties[table.name] = group_schema(table);
-        else
-            properties[table.name.substr(0, dot)]["properties"][table.name.substr(dot + 1)] = group_schema(table);
-    }
     required.push_back("section");
     properties["expect"] = {
         {"type", "object"},
@@ -636,7 +554,6 @@ std::string scene_schema()
 std::string scene_keys_markdown()
 {
     SectionInput section;
-    Scene scene;
     std::string out =
         "# Keys of a scene file\n\nMade from the key table of the program (`damslip schema --markdown`). "
         "Numbers carry their unit in the key; the other spellings of a key "
@@ -659,10 +576,9 @@ std::string scene_keys_markdown()
         for (const Key& key : group.keys) {
             std::vector<std::string> others = key.spellings();
             others.erase(others.begin());
-            const Slot slot = probe(group, key, scene);
             out += fmt::format("| `{}`{} | {} | {} | {} | {} | {} |\n", key.canonical(),
                                others.empty() ? "" : fmt::format(" (or {})", fmt::join(others, ", ")),
-                               escaped(allowed(key, slot)), escaped(usual_cell(key)), escaped(key.default_text),
+                               escaped(allowed(key)), escaped(usual_cell(key)), escaped(key.default_text),
                                method_words(honoured_by(group.name, key.name)), escaped(key.meaning));
         }
     }

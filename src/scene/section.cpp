@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <initializer_list>
 #include <limits>
+#include <tuple>
 
 namespace damslip {
 
@@ -281,17 +283,25 @@ void check_polygon(const Polyline& p, Findings& findings)
                                      std::max(-cross(p[0], p[1], p[i]) / std::hypot(p[1].x, p[1].y), 0.1)));
 }
 
+/// Are all keys there that a description needs? @param fix  with places for a key and its example
+bool all_given(std::initializer_list<std::tuple<std::optional<double>, const char*, const char*>> keys,
+               const char* expected, const char* fix, Findings& findings)
+{
+    bool all = true;
+    for (const auto& [value, key, example] : keys) {
+        if (value) continue;
+        all = false;
+        findings.wrong("section", fmt::format("section.{} is missing.", key), expected,
+                       fmt::format(fmt::runtime(fix), key, example));
+    }
+    return all;
+}
+
 Polyline polygon_by_dimensions(const SectionInput& in, Findings& findings)
 {
-    const auto need = [&](const std::optional<double>& value, const char* key, const char* example) {
-        if (!value)
-            findings.wrong("section", fmt::format("section.{} is missing.", key),
-                           "polygon_m, or height_m, base_m and crest_m",
-                           fmt::format("add  {} = {}  or a polygon_m to [section]", key, example));
-        return value.has_value();
-    };
-    const bool has_height = need(in.height, "height_m", "62.5"), has_base = need(in.base, "base_m", "45");
-    if (!has_height || !has_base) return {};
+    if (!all_given({{in.height, "height_m", "62.5"}, {in.base, "base_m", "45"}},
+                   "polygon_m, or height_m, base_m and crest_m", "add  {} = {}  or a polygon_m to [section]", findings))
+        return {};
     const double h = *in.height, b = *in.base, crest = in.crest.value_or(0), neck = in.neck.value_or(0);
     const double batter_height = std::min(in.upstream_slope_height.value_or(h), h);
     const double crest_from = in.upstream_slope.value_or(0) * batter_height; // x of the crest's upstream end
@@ -338,17 +348,13 @@ bool any_of_rock_slope(const SectionInput& in)
 /// Empty where the slope cannot be: said in `findings`.
 Polyline polygon_of_rock_slope(const SectionInput& in, Findings& findings)
 {
-    const auto need = [&](const std::optional<double>& value, const char* key, const char* example) {
-        if (!value)
-            findings.wrong("section", fmt::format("section.{} is missing.", key),
-                           "slope_height_m, face_dip_deg, plane_dip_deg and crack_distance_m of a rock slope",
-                           fmt::format("add  {} = {}  to [section]", key, example));
-        return value.has_value();
-    };
-    const bool complete[] = {need(in.slope_height, "slope_height_m", "12"), need(in.face_dip, "face_dip_deg", "60"),
-                             need(in.plane_dip, "plane_dip_deg", "35"),
-                             need(in.crack_distance, "crack_distance_m", "4")};
-    if (!(complete[0] && complete[1] && complete[2] && complete[3])) return {};
+    if (!all_given({{in.slope_height, "slope_height_m", "12"},
+                    {in.face_dip, "face_dip_deg", "60"},
+                    {in.plane_dip, "plane_dip_deg", "35"},
+                    {in.crack_distance, "crack_distance_m", "4"}},
+                   "slope_height_m, face_dip_deg, plane_dip_deg and crack_distance_m of a rock slope",
+                   "add  {} = {}  to [section]", findings))
+        return {};
     const RockSlope slope{*in.slope_height, *in.face_dip, *in.plane_dip, *in.crack_distance, in.upper_dip.value_or(0)};
     const auto degrees = [](const char* key, double angle) {
         return fmt::format("{} = {:.10g}", key, angle / units::degree);
@@ -381,10 +387,6 @@ Polyline polygon_of_rock_slope(const SectionInput& in, Findings& findings)
                      "move the crack towards the crest; a block without crack is a polygon_m");
     return sliding_block(slope);
 }
-
-} // namespace
-
-namespace {
 
 void check_thickness(const Section& section, Findings& findings)
 {

@@ -2,9 +2,6 @@
 
 #include "scene/findings.hpp"
 
-#include <algorithm>
-#include <cassert>
-
 namespace damslip {
 
 /// The models with a rule of their own for cracks: their profiles are those of sliding/uplift.
@@ -35,27 +32,6 @@ std::vector<UpliftRow> named_uplift_models()
 const UpliftRow& uplift_row(UpliftModel model)
 {
     return uplift_rows()[std::size_t(model)];
-}
-
-UpliftModel uplift_model(std::string_view word)
-{
-    const auto rows = uplift_rows();
-    const auto found =
-        std::find_if(rows.begin(), rows.end(), [word](const UpliftRow& row) { return row.word == word; });
-    assert(found != rows.end());
-    return UpliftModel(found - rows.begin());
-}
-
-bool has_what_it_needs(const Scene& scene, const UpliftRow& row)
-{
-    return !row.there || row.there(scene);
-}
-
-std::string uplift_words()
-{
-    std::string words;
-    for (const UpliftRow& row : uplift_rows()) words += (words.empty() ? "" : ", ") + row.word;
-    return words;
 }
 
 const char* word(UpliftModel model)

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "scene/scene.hpp"
+#include "scene/word_rows.hpp"
 
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace damslip {
@@ -65,14 +65,5 @@ struct UpliftRow {
 /// All rows; the place of a row is the value of its UpliftModel.
 std::span<const UpliftRow> uplift_rows();
 const UpliftRow& uplift_row(UpliftModel model);
-
-/// The model of a word that is in the table.
-UpliftModel uplift_model(std::string_view word);
-
-/// The scene has what the model needs.
-bool has_what_it_needs(const Scene& scene, const UpliftRow& row);
-
-/// "none, linear, curtain", for help texts.
-std::string uplift_words();
 
 } // namespace damslip

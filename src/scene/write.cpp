@@ -6,6 +6,7 @@
 #include "scene/mesh_sizes.hpp"
 #include "scene/plausible.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -34,68 +35,56 @@ std::string toml_number(double x)
     return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 
-struct Written {
-    std::string suffix;
-    double value;
-};
-
-/// `si` in the first unit in which the written number reads back as the same double.
-Written in_unit(double si, const Units& units)
+/// `si` in this unit: the number that reads back as the same double, or the nearest one.
+double in_unit(double si, const UnitSuffix& unit)
 {
-    for (const UnitSuffix& unit : units) {
-        if (unit.tangent) continue;
-        const double near = si / unit.factor;
-        for (const double candidate : {near, std::nextafter(near, -HUGE_VAL), std::nextafter(near, HUGE_VAL)})
-            if (to_si(candidate, unit) == si) return {unit.suffix, candidate};
-    }
-    return {units.front().suffix, si / units.front().factor};
+    const double near = si / unit.factor;
+    for (const double candidate : {near, std::nextafter(near, -HUGE_VAL), std::nextafter(near, HUGE_VAL)})
+        if (to_si(candidate, unit) == si) return candidate;
+    return near;
 }
 
-std::string spelled(const Key& key, const std::string& suffix)
+bool reads_back(double si, const UnitSuffix& unit)
 {
-    return suffix.empty() ? key.name : key.name + "_" + suffix;
+    return !unit.tangent && to_si(in_unit(si, unit), unit) == si;
+}
+
+/// The first unit in which every one of the numbers reads back as the same double; else the one to fall back on.
+const UnitSuffix& exact_unit(const std::vector<double>& si, const Units& units, const UnitSuffix& otherwise)
+{
+    const auto exact = [&](const UnitSuffix& unit) {
+        return std::ranges::all_of(si, [&](double x) { return reads_back(x, unit); });
+    };
+    const auto found = std::ranges::find_if(units, exact);
+    return found == units.end() ? otherwise : *found;
 }
 
 std::string number_line(const Key& key, double si)
 {
-    const Written w = in_unit(si, key.units);
-    return spelled(key, w.suffix) + " = " + toml_number(w.value) + "\n";
+    const UnitSuffix& unit = exact_unit({si}, key.units, key.units.front());
+    return key.spelled(unit) + " = " + toml_number(in_unit(si, unit)) + "\n";
 }
 
 std::string pairs_line(const Key& key, const std::vector<Point>& points)
 {
-    // One suffix has to serve all first entries: the first unit that is exact for every one of them.
-    const bool same = key.second_units.front().suffix == key.units.front().suffix;
-    for (const UnitSuffix& unit : key.units) {
-        bool exact = true;
-        std::string list;
-        for (const Point& p : points) {
-            const Written x = in_unit(p.x, {unit});
-            const Written y = in_unit(p.y, same ? Units{unit} : key.second_units);
-            exact = exact && to_si(x.value, unit) == p.x;
-            list += (list.empty() ? "[" : ", [") + toml_number(x.value) + ", " + toml_number(y.value) + "]";
-        }
-        if (exact || &unit == &key.units.back()) return spelled(key, unit.suffix) + " = [" + list + "]\n";
-    }
-    return "";
+    std::vector<double> firsts;
+    for (const Point& p : points) firsts.push_back(p.x);
+    const UnitSuffix& unit = exact_unit(firsts, key.units, key.units.back()); // one has to serve all first entries
+    const UnitSuffix& second =
+        key.second_units.front().suffix == key.units.front().suffix ? unit : key.second_units.front();
+    std::string list;
+    for (const Point& p : points)
+        list += (list.empty() ? "[" : ", [") + toml_number(in_unit(p.x, unit)) + ", " +
+                toml_number(in_unit(p.y, second)) + "]";
+    return key.spelled(unit) + " = [" + list + "]\n";
 }
 
-/// @param one  the first as a number, not as a list
-std::string numbers_line(const Key& key, const std::vector<double>& values, bool one = false)
+std::string numbers_line(const Key& key, const std::vector<double>& values)
 {
-    if (one) return number_line(key, values.front());
+    const UnitSuffix& unit = exact_unit(values, key.units, key.units.back());
     std::string list;
-    for (const UnitSuffix& unit : key.units) { // the first unit that is exact for every one of them
-        bool exact = true;
-        list.clear();
-        for (const double si : values) {
-            const Written w = in_unit(si, {unit});
-            exact = exact && to_si(w.value, unit) == si;
-            list += (list.empty() ? "" : ", ") + toml_number(w.value);
-        }
-        if (exact || &unit == &key.units.back()) return spelled(key, unit.suffix) + " = [" + list + "]\n";
-    }
-    return "";
+    for (const double si : values) list += (list.empty() ? "" : ", ") + toml_number(in_unit(si, unit));
+    return key.spelled(unit) + " = [" + list + "]\n";
 }
 
 std::string path_text(const std::filesystem::path& path, RecordPaths style)
@@ -140,16 +129,20 @@ std::string line(const Key& key, const Slot& slot, RecordPaths paths)
             for (const std::string& word : *v) list += (list.empty() ? "" : ", ") + toml_text(word);
             return v->empty() ? "" : key.name + " = [" + list + "]\n";
         }
-        std::string operator()(const Numbers& v) const { return v.list->empty() ? "" : numbers_line(key, *v.list, v.one); }
+        std::string operator()(const Numbers& v) const
+        {
+            if (v.list->empty()) return "";
+            return v.one ? number_line(key, v.list->front()) : numbers_line(key, *v.list);
+        }
         std::string operator()(const Ends& v) const { return numbers_line(key, {*v.from, *v.to}); }
         std::string operator()(const Choice& c) const
         {
             const int i = c.get();
-            return i < 0 ? "" : key.name + " = " + toml_text(c.words[static_cast<std::size_t>(i)]) + "\n";
+            return i < 0 ? "" : key.name + " = " + toml_text(key.value.words[static_cast<std::size_t>(i)]) + "\n";
         }
         std::string operator()(const NumberOrWord& v) const
         {
-            if (*v.word_given) return key.canonical() + " = " + toml_text(v.word) + "\n";
+            if (*v.word_given) return key.canonical() + " = " + toml_text(key.value.words.front()) + "\n";
             return *v.number ? number_line(key, **v.number) : "";
         }
     };
@@ -167,7 +160,7 @@ std::string resolved_toml(const Scene& given, RecordPaths paths)
     const auto write = [&](const KeyGroup& group, const void* item) {
         std::string lines;
         for (const Key& key : group.keys)
-            if (!key.applies || key.applies(item)) lines += line(key, key.slot(const_cast<void*>(item)), paths);
+            if (!key.applies || key.applies(item)) lines += line(key, key.value.slot(const_cast<void*>(item)), paths);
         if (lines.empty() && group.presence == Presence::always) return;
         if (!group.name.empty())
             out += group.presence == Presence::list ? "\n[[" + group.name + "]]\n" : "\n[" + group.name + "]\n";
@@ -203,7 +196,7 @@ std::vector<UsualValue> usual_values(const Scene& given)
             for (const Key& key : group.keys) {
                 const bool numerical = key.usual && key.usual->source == "judgement" && group.name != "criteria";
                 if (!key.usual || numerical || (key.applies && !key.applies(items[i]))) continue;
-                std::string written = line(key, key.slot(const_cast<void*>(items[i])), RecordPaths::file_names);
+                std::string written = line(key, key.value.slot(const_cast<void*>(items[i])), RecordPaths::file_names);
                 if (written.empty()) continue;
                 written.pop_back(); // the end of the line
                 const std::size_t at = written.find(" = ");

@@ -120,12 +120,12 @@ TEST(RecordCommand, converts_scales_and_informs)
     const Streams streams{out, talk, Form::text, true};
     RecordInput input;
     input.file = data;
-    EXPECT_EQ(record_convert({input, {folder / "a.at2", record_output("", "a.at2")}, {}}, streams), 0);
+    EXPECT_EQ(record_convert({input, {folder / "a.at2", ""}, {}}, streams), 0);
     input.file = folder / "a.at2";
     const Record at2 = read(input);
     EXPECT_EQ(at2.source.format, "PEER AT2");
     EXPECT_EQ(at2.acceleration.size(), 2001u);
-    RecordScaleArguments scale{input, {folder / "b.csv"}, {}, 2.0};
+    RecordScaleArguments scale{input, {folder / "b.csv", ""}, {}, 2.0};
     EXPECT_EQ(record_scale(scale, streams), 0);
     input.file = folder / "b.csv";
     const Table table = pages::record_info_table({read(input)}, pages::Checksums::shown);

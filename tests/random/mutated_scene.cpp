@@ -159,12 +159,10 @@ void add_what_makes_it_hard(Lines& lines, Draw& draw)
 /// A value such as the documents show, or at the ends of what is usual or allowed; or another word of its list.
 std::string some_value(const KeyGroup& group, const Key& key, Draw& draw)
 {
-    static Scene scratch;
     if (!group.inside) {
-        const Slot slot = key.slot(group.open(scratch));
-        if (const Choice* choice = std::get_if<Choice>(&slot))
-            return '"' + choice->words[some(draw, choice->words.size())] + '"';
-        if (std::holds_alternative<bool*>(slot)) return draw.word({"true", "false"});
+        if (const auto& words = key.value.words; key.value.kind == ValueKind::word)
+            return '"' + words[some(draw, words.size())] + '"';
+        if (key.value.kind == ValueKind::flag) return draw.word({"true", "false"});
     }
     std::vector<double> ends;
     for (const double end : {key.range.low, key.range.high})

@@ -3,10 +3,10 @@
 
 #include "core/file.hpp"
 #include "core/input_error.hpp"
-#include "scene/scene_text.hpp"
 #include "scene/fragility_input.hpp"
-#include "scene/fragility_keys.hpp"
+#include "scene/key_table.hpp"
 #include "scene/read.hpp"
+#include "scene/scene_text.hpp"
 #include "source_dir.hpp"
 
 #include <filesystem>
@@ -38,8 +38,7 @@ std::vector<std::string> problems_of(const std::string& text)
 /// A table with one key, and beside it what the table cannot do without.
 std::string with_key(const std::string& table, const std::string& key, const std::string& value)
 {
-    const bool is_law = fragility_key_table("probability.variable").keys.size() > 0 &&
-                        table == "probability.variable" && value.starts_with("{");
+    const bool is_law = table == "probability.variable" && value.starts_with("{");
     const std::string line = key + " = " + value + "\n";
     if (table == "probability.variable")
         return "[[probability.variable]]\n" + std::string(key == "key" ? "" : "key = \"contact.friction\"\n") + line +
@@ -72,16 +71,16 @@ std::string with_key(const std::string& table, const std::string& key, const std
 TEST(FragilityKeys, TheReaderTakesEveryKeyOfTheListWithItsExampleAndItsWords)
 {
     int read = 0;
-    for (const FragilityKeyTable& table : fragility_key_tables())
-        for (const FragilityKey& key : table.keys) {
+    for (const KeyGroup& table : fragility_key_tables())
+        for (const Key& key : table.keys) {
             std::vector<std::string> values{key.example};
-            for (const std::string& word : key.words) values.push_back("\"" + word + "\"");
+            for (const std::string& word : key.value.words) values.push_back("\"" + word + "\"");
             for (const std::string& value : values) {
                 const std::vector<std::string> problems = problems_of(block + with_key(table.name, key.name, value));
                 EXPECT_TRUE(problems.empty()) << table.name << "." << key.name << " = " << value << ": " << problems[0];
                 ++read;
             }
-            if (key.value == FragilityValue::word) {
+            if (key.value.kind == ValueKind::word) {
                 EXPECT_EQ(problems_of(block + with_key(table.name, key.name, "\"no-such-word\"")).size(), 1u)
                     << table.name << "." << key.name;
             }
@@ -114,14 +113,14 @@ TEST(FragilityKeys, StandInTheSchemaAndOnThePage)
 {
     const auto schema = nlohmann::json::parse(scene_schema())["properties"];
     const std::string page = scene_keys_markdown();
-    for (const FragilityKeyTable& table : fragility_key_tables()) {
+    for (const KeyGroup& table : fragility_key_tables()) {
         const std::size_t dot = table.name.find('.');
         nlohmann::json object = dot == std::string::npos
                                     ? schema[table.name]
                                     : schema[table.name.substr(0, dot)]["properties"][table.name.substr(dot + 1)];
         if (table.presence == Presence::list) object = object["items"];
         EXPECT_NE(page.find(table.name), std::string::npos);
-        for (const FragilityKey& key : table.keys) {
+        for (const Key& key : table.keys) {
             EXPECT_TRUE(object["properties"].contains(key.name)) << table.name << "." << key.name;
             EXPECT_NE(page.find("| `" + key.name + "` |"), std::string::npos) << table.name << "." << key.name;
         }

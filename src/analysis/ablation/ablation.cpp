@@ -35,9 +35,8 @@ AblationPlan make_ablations(const Scene& scene, Method method, const std::vector
         const EffectRow& row = effect_row(e.effect);
         auto answer = row.remove(scene, seepage_points);
         if (auto* removal = std::get_if<Removal>(&answer))
-            ablations.removals.push_back({e.effect, e.name, removal->instead,
-                                          row.part_of ? std::optional(row.part_of(plan)) : std::nullopt,
-                                          std::move(removal->scene)});
+            ablations.removals.push_back(
+                {e.effect, e.name, removal->instead, row.whole(plan), std::move(removal->scene)});
         else
             ablations.kept.push_back({e.name, std::get<Stays>(answer).why});
     }

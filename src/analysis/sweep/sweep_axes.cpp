@@ -88,7 +88,7 @@ Scene variant(Scene scene, double level, const std::string& uplift, const std::s
         else if (reservoir == "acoustic")
             scene.reservoir->model = ReservoirModel::acoustic;
         else {
-            scene.added_mass.formula = added_mass_formula(reservoir);
+            scene.added_mass.formula = named_by<AddedMassFormula>(reservoir, added_mass_rows());
             scene.reservoir->model = ReservoirModel::added_mass;
         }
     }
@@ -96,7 +96,7 @@ Scene variant(Scene scene, double level, const std::string& uplift, const std::s
         scene.uplift.reset();
     else {
         if (!scene.uplift) scene.uplift.emplace();
-        scene.uplift->model = uplift_model(uplift);
+        scene.uplift->model = named_by<UpliftModel>(uplift, uplift_rows());
     }
     return sized(std::move(scene), size);
 }

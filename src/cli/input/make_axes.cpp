@@ -128,7 +128,7 @@ std::vector<std::string> uplift_axis(const SweepArguments& a, const Scene& scene
     for (const UpliftRow& row : uplift_rows()) known.push_back(row.word);
     std::vector<std::string> words = word_list(a.uplift, "--uplift", known);
     for (const std::string& u : words)
-        if (const UpliftRow& row = uplift_row(uplift_model(u)); !has_what_it_needs(scene, row))
+        if (const UpliftRow& row = uplift_row(named_by<UpliftModel>(u, uplift_rows())); !has_what_it_needs(scene, row))
             refuse_usage(fmt::format("--uplift {}: the scene lacks what this profile needs.", u), row.needs,
                          "add it to the scene or leave the profile out");
     return words;
@@ -366,10 +366,9 @@ std::vector<std::string> split(const std::string& text, char separator)
 
 [[noreturn]] void fail(const std::string& flag, const std::string& text, const std::string& why)
 {
-    throw UsageError(
-        Diagnostic{"", 0, 0, fmt::format("{} {}: {}", flag, text, why),
-                   "numbers with a decimal point, 1.00,0.84,0.77, or a range first:last:step 0.65:1.0:0.05",
-                   fmt::format("for example  {} 0.65:1.0:0.05", flag)});
+    refuse_usage(fmt::format("{} {}: {}", flag, text, why),
+                 "numbers with a decimal point, 1.00,0.84,0.77, or a range first:last:step 0.65:1.0:0.05",
+                 fmt::format("for example  {} 0.65:1.0:0.05", flag));
 }
 
 void append_range(const std::vector<std::string>& parts, const std::string& flag, const std::string& text,
@@ -423,13 +422,11 @@ std::vector<std::string> word_list(const std::string& text, const std::string& f
         if (!word.empty() && (allowed.empty() || std::find(allowed.begin(), allowed.end(), word) != allowed.end()))
             continue;
         const std::string_view near = nearest(word, allowed);
-        throw UsageError(
-            Diagnostic{"", 0, 0,
-                       fmt::format("{} {}: \"{}\" is not known.{}", flag, text, word,
-                                   near.empty() ? "" : fmt::format(" Did you mean {}?", near)),
-                       fmt::format("{}", fmt::join(allowed, ", ")),
-                       near.empty() ? fmt::format("for example  {} {}", flag, allowed.empty() ? "a,b" : allowed.front())
-                                    : fmt::format("write  {} \"{}\"", flag, near)});
+        refuse_usage(fmt::format("{} {}: \"{}\" is not known.{}", flag, text, word,
+                                 near.empty() ? "" : fmt::format(" Did you mean {}?", near)),
+                     fmt::format("{}", fmt::join(allowed, ", ")),
+                     near.empty() ? fmt::format("for example  {} {}", flag, allowed.empty() ? "a,b" : allowed.front())
+                                  : fmt::format("write  {} \"{}\"", flag, near));
     }
     return words;
 }

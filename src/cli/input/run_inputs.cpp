@@ -53,8 +53,8 @@ Scene scene_as_written(const RunInputs& inputs)
     std::cin.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(std::cin.gcount()));
     if (text.size() > most)
-        throw InputError(Diagnostic{"standard input", 0, 0, "the scene has more than 4 MiB.", "a scene file (TOML)",
-                                    "write the scene alone to standard input"});
+        refuse("standard input", "the scene has more than 4 MiB.", "a scene file (TOML)",
+               "write the scene alone to standard input");
     return parse_scene(text, "standard input");
 }
 
@@ -198,10 +198,8 @@ void need_scene_file(const RunInputs& inputs, const std::string& flag)
 void need_section(const Scene& scene, const std::string& command, const std::string& instead)
 {
     if (!scene.wedge) return;
-    throw InputError(
-        Diagnostic{scene.file.string(), 0, 0,
-                   fmt::format("{} cannot take a [wedge]: it has no section for finite elements.", command),
-                   "a scene with [section], [dam] and [contact]", instead});
+    refuse(scene.file, fmt::format("{} cannot take a [wedge]: it has no section for finite elements.", command),
+           "a scene with [section], [dam] and [contact]", instead);
 }
 
 namespace {

@@ -101,15 +101,6 @@ void InterruptGuard::set_farewell(std::string talk, std::string out)
     farewell_out = std::move(out);
 }
 
-namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-} // namespace
-
 void Streams::remark(const std::string& line) const
 {
     if (quiet) return;
@@ -121,7 +112,7 @@ void Streams::remark(const std::string& line) const
 
 Progress::Progress(const Streams& streams, std::string label, double total, std::chrono::milliseconds line_every)
     : streams_(streams), label_(std::move(label)), total_(total), line_every_(line_every),
-      start_(std::chrono::steady_clock::now()), drawn_(start_)
+      drawn_(std::chrono::steady_clock::now())
 {
 }
 
@@ -139,7 +130,7 @@ void Progress::end()
         if (shown_ && streams_.bar) *streams_.bar << "\r\033[K" << std::flush;
         return;
     }
-    const double spent = seconds_since(start_);
+    const double spent = start_.seconds();
     streams_.talk << (share() >= 1.0
                           ? fmt::format("{}: 100 %, {:.3g} s\n", label_, spent)
                           : fmt::format("{}: stopped at {:.0f} % after {:.3g} s\n", label_, 100.0 * share(), spent))
@@ -192,7 +183,7 @@ double Progress::share() const
 
 double Progress::seconds_left() const
 {
-    return share() > 0 ? seconds_since(start_) * (1 - share()) / share() : 0;
+    return share() > 0 ? start_.seconds() * (1 - share()) / share() : 0;
 }
 
 void Progress::draw()

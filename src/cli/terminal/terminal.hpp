@@ -96,7 +96,8 @@ private:
     std::string label_;
     double total_, done_ = 0;
     std::chrono::milliseconds line_every_;
-    std::chrono::steady_clock::time_point start_, drawn_;
+    Stopwatch start_;
+    std::chrono::steady_clock::time_point drawn_;
     std::mutex mutex_;
     bool shown_ = false, ended_ = false;
 };
