@@ -12,8 +12,8 @@ list(APPEND DAMSLIP_ALONE sliding/block/permanent_contact_batch.cpp)
 
 # Files of folders that are cold otherwise, through which every row of a sweep goes: compiled like the hot ones, by themselves.
 set(DAMSLIP_PER_ROW
-  src/analysis/prepare/rigid_model.cpp src/analysis/sweep/result_store.cpp src/analysis/sweep/sweep_rows.cpp
-  src/analysis/sweep/sweep_run.cpp src/analysis/sweep/sweep_tasks.cpp
+  src/analysis/prepare/rigid_model.cpp src/analysis/sweep/result_store.cpp src/analysis/sweep/sweep_axes.cpp
+  src/analysis/sweep/sweep_grid.cpp src/analysis/sweep/sweep_run.cpp
   src/pages/report/csv_lines.cpp src/pages/sweep/sweep_rows_view.cpp src/pages/sweep/sweep_tables.cpp)
 
 # For the tests that rely on it.

@@ -1,7 +1,6 @@
 #include "cli/model_commands.hpp"
 
-#include "analysis/prepare/lift_joints.hpp"
-#include "analysis/prepare/seam_body.hpp"
+#include "analysis/prepare/fe_joints.hpp"
 #include "analysis/spectrum/spectrum_level.hpp"
 #include "cli/command.hpp"
 #include "cli/verifier.hpp"

@@ -1,4 +1,4 @@
-#include "analysis/sweep/sweep_store.hpp"
+#include "analysis/sweep/sweep_run.hpp"
 #include "cli/command.hpp"
 #include "cli/input/make_axes.hpp"
 #include "cli/sweep_plan.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/sweep/sweep_tasks.hpp"
+#include "analysis/sweep/sweep_axes.hpp"
 #include "cli/input/make_axes.hpp"
 
 namespace damslip::cli {

@@ -145,11 +145,6 @@ AnnualRate annual_rate(const HazardCurve& curve, std::span<const double> x, std:
     return r;
 }
 
-double kennedy_rate(double k0, double k, double median, double beta)
-{
-    return k0 * std::exp(-k * std::log(median) + 0.5 * k * k * beta * beta);
-}
-
 double probability_in(double rate, double years)
 {
     return -std::expm1(-rate * years);

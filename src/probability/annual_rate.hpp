@@ -61,9 +61,6 @@ AnnualRate annual_rate(const HazardCurve& curve, double median, double beta, dou
 AnnualRate annual_rate(const HazardCurve& curve, std::span<const double> x, std::span<const double> p,
                        std::optional<double> nu = {}, bool growing = true);
 
-/// H = k_0 x^-k and a lognormal fragility: k_0 theta^-k e^(k^2 beta^2 / 2) (Kennedy & Short 1994; Cornell et al. 2002).
-double kennedy_rate(double k0, double k, double median, double beta);
-
 /// 1 - e^(-rate years), accurate for small ones.
 double probability_in(double rate, double years);
 

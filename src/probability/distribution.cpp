@@ -115,11 +115,6 @@ Distribution Distribution::discrete(std::vector<double> weights)
     return Distribution(Discrete{std::move(weights)});
 }
 
-bool Distribution::is_discrete() const
-{
-    return std::holds_alternative<Discrete>(law_);
-}
-
 Distribution Distribution::truncated(double min, double max) const
 {
     if (is_discrete()) throw ParameterError("min, max", "given", "no bounds of a discrete variable");
@@ -239,17 +234,13 @@ double Distribution::quantile(double u) const
     return std::clamp(x, min_, max_);
 }
 
-double Distribution::lower() const
-{
-    return min_;
-}
-
-double Distribution::upper() const
-{
-    return max_;
-}
-
 namespace {
+
+/// phi(z) = exp(-z^2/2) / sqrt(2 pi)
+double normal_density(double z)
+{
+    return std::exp(-0.5 * z * z) * (0.5 * std::numbers::sqrt2 * std::numbers::inv_sqrtpi);
+}
 
 /// phi(z) / (1 - Phi(z)) for z >= 5 by Laplace's continued fraction z + 1/(z + 2/(z + 3/(z + ...))); 60 terms are exact to round-off.
 double upper_mills(double z)
@@ -260,11 +251,6 @@ double upper_mills(double z)
 }
 
 } // namespace
-
-double normal_density(double z)
-{
-    return std::exp(-0.5 * z * z) * (0.5 * std::numbers::sqrt2 * std::numbers::inv_sqrtpi);
-}
 
 double normal_cdf(double z)
 {

@@ -40,10 +40,10 @@ public:
 
     double cdf(double x) const;      ///< P(X <= x); 0 below and 1 above the support
     double quantile(double u) const; ///< smallest x with F(x) >= u; 0 < u < 1, ends allowed: the ends of the support
-    double lower() const;            ///< lower end of the support; -inf
-    double upper() const;            ///< upper end of the support; +inf
+    double lower() const { return min_; } ///< lower end of the support; -inf
+    double upper() const { return max_; } ///< upper end of the support; +inf
     double median() const { return quantile(0.5); }
-    bool is_discrete() const;
+    bool is_discrete() const { return std::holds_alternative<Discrete>(law_); }
 
 private:
     struct Lognormal {
@@ -81,7 +81,6 @@ private:
 
 /// The standard normal distribution, accurate in both tails.
 
-double normal_density(double z); ///< phi(z) = exp(-z^2/2) / sqrt(2 pi)
 double normal_cdf(double z);     ///< Phi(z); relative accuracy also where it is tiny
 
 /// ln Phi(z), finite down to z = -1e150.

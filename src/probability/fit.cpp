@@ -312,7 +312,6 @@ BinaryFit fit_binary(Link link, Penalty penalty, std::span<const double> x, std:
     fit.coefficients.assign(b.begin(), b.end());
     for (Eigen::Index i = 0; i <= k; ++i)
         for (Eigen::Index j = 0; j <= k; ++j) fit.covariance.push_back(covariance(i, j));
-    fit.log_likelihood = state.likelihood;
     return fit;
 }
 
@@ -418,16 +417,21 @@ CapacityFit fit_capacities(std::span<const double> reached, std::span<const doub
     return fit;
 }
 
-Interval wilson(double z, double n, double confidence)
-{
-    return wilson_by_quantile(z, n, normal_quantile(0.5 + 0.5 * confidence));
-}
+namespace {
 
+/// Wilson's interval with a quantile k that is not that of the normal distribution.
 Interval wilson_by_quantile(double z, double n, double k)
 {
     const double p = z / n, s = k * k / n;
     const double centre = (p + 0.5 * s) / (1.0 + s), half = k / (1.0 + s) * std::sqrt(p * (1.0 - p) / n + 0.25 * s / n);
     return {z <= 0.0 ? 0.0 : std::max(0.0, centre - half), z >= n ? 1.0 : std::min(1.0, centre + half)};
+}
+
+} // namespace
+
+Interval wilson(double z, double n, double confidence)
+{
+    return wilson_by_quantile(z, n, normal_quantile(0.5 + 0.5 * confidence));
 }
 
 Interval wilson_of_estimate(double p, double se, double n, double degrees, double confidence)
@@ -437,13 +441,6 @@ Interval wilson_of_estimate(double p, double se, double n, double degrees, doubl
     const double trials = se > 0.0 ? std::min(most, inner * (1.0 - inner) / (se * se)) : most;
     return wilson_by_quantile(std::clamp(p, 0.0, 1.0) * trials, trials,
                               gsl_cdf_tdist_Pinv(0.5 + 0.5 * confidence, degrees));
-}
-
-Interval jeffreys(double z, double n, double confidence)
-{
-    const Distribution posterior = Distribution::beta(z + 0.5, n - z + 0.5, 0.0, 1.0);
-    return {z <= 0.0 ? 0.0 : posterior.quantile(0.5 - 0.5 * confidence),
-            z >= n ? 1.0 : posterior.quantile(0.5 + 0.5 * confidence)};
 }
 
 double bound_of_none(double n, double confidence)
@@ -474,6 +471,28 @@ ClusterInterval cluster_bootstrap(std::size_t clusters,
     interval.lower = percentile(values, 0.5 - 0.5 * confidence);
     interval.upper = percentile(values, 0.5 + 0.5 * confidence);
     return interval;
+}
+
+EpistemicBands epistemic_bands(std::span<const double> p_hat, std::span<const double> inner)
+{
+    if (p_hat.size() < 2) throw ParameterError("draws", fmt::format("{}", p_hat.size()), "2 epistemic draws at least");
+    if (p_hat.size() != inner.size())
+        throw ParameterError("inner", fmt::format("{}", inner.size()), fmt::format("{} numbers", p_hat.size()));
+    EpistemicBands bands;
+    const double n = static_cast<double>(p_hat.size());
+    for (const double p : p_hat) bands.mean += p / n;
+    double spread = 0.0, noise = 0.0;
+    for (std::size_t e = 0; e < p_hat.size(); ++e) {
+        if (inner[e] == 1.0) throw ParameterError("inner", "1", "0 (exact), or 2 samples at least");
+        spread += std::pow(p_hat[e] - bands.mean, 2) / (n - 1.0);
+        if (inner[e] > 0.0) noise += p_hat[e] * (1.0 - p_hat[e]) / (inner[e] - 1.0) / n;
+    }
+    bands.variance = std::max(0.0, spread - noise);
+    bands.noise_share = spread > 0.0 ? std::min(1.0, noise / spread) : 0.0;
+    bands.add_inner = bands.noise_share > 0.2;
+    const std::vector<double> values(p_hat.begin(), p_hat.end());
+    for (std::size_t k = 0; k < band_levels.size(); ++k) bands.percentiles[k] = percentile(values, band_levels[k]);
+    return bands;
 }
 
 } // namespace damslip::probability

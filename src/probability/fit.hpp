@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -22,7 +23,6 @@ struct BinaryFit {
     Link link = Link::probit;
     std::vector<double> coefficients; ///< b_0 ... b_k
     std::vector<double> covariance;   ///< inverse of the expected information, row by row
-    double log_likelihood = 0.0;      ///< without the penalty
     int iterations = 0;
     bool converged =
         false; ///< Newton decrement below 1e-20 of the log-likelihood, or 1e-12 where no step rises any more
@@ -52,16 +52,10 @@ struct Interval {
 /// z = 0: lower end exactly 0; z = n: upper end exactly 1.
 Interval wilson(double z, double n, double confidence = 0.95);
 
-/// The same for a given quantile k, where it is not that of the normal distribution.
-Interval wilson_by_quantile(double z, double n, double k);
-
 /// Of an estimate p with a standard error: Wilson's with n_eff = p (1 - p) / se^2 trials, at most 20 n, and the quantile of Student's t. At p <= 0
 /// or >= 1, where that is no number of trials, p is taken at 1 / (2 n) from the end.
 /// @param degrees  of freedom of se, n - 1 of independent samples with normal errors
 Interval wilson_of_estimate(double p, double se, double n, double degrees, double confidence = 0.95);
-
-/// Beta(z + 1/2, n - z + 1/2) at both ends, 0 at z = 0 and 1 at z = n (Brown, Cai & DasGupta 2001).
-Interval jeffreys(double z, double n, double confidence = 0.95);
 
 /// Largest p under which no event in n trials has the probability 1 - confidence: 1 - 0.05^(1/n). No failure: upper bound of p;
 /// all failed: 1 minus it is the lower bound.
@@ -137,5 +131,21 @@ struct CapacityFit {
 ///     sum ln[phi(z_r) / (beta x_r)] + sum ln[1 - Phi(z_c)],   z = ln(x / theta) / beta       Baker (2015), eq. (5)-(6),
 /// concave in 1 / beta and ln(theta) / beta. Not found with fewer than two different levels reached.
 CapacityFit fit_capacities(std::span<const double> reached, std::span<const double> censored_at);
+
+inline constexpr std::array<double, 5> band_levels{0.05, 0.16, 0.50, 0.84, 0.95};
+
+/// What lack of knowledge leaves open: percentiles over the epistemic draws e of P_e, each estimated with n_e aleatory samples.
+struct EpistemicBands {
+    std::array<double, 5> percentiles{}; ///< of P_e, at band_levels
+    double mean = 0.0;                   ///< E P_e: the curve for rates
+    double variance = 0.0;               ///< of P_e: s^2(p_hat) - mean p_hat (1 - p_hat) / (n - 1), not below 0
+    double noise_share = 0.0;            ///< what the inner samples add to s^2(p_hat) [-]
+    bool add_inner = false;              ///< noise_share > 20 %: the bands are too wide, more inner samples are needed
+};
+
+/// @param p_hat  estimate of P_e of each draw
+/// @param inner  number of independent aleatory samples behind each; 0: exact
+/// @throws ParameterError for fewer than 2 draws, sizes that differ, inner = 1
+EpistemicBands epistemic_bands(std::span<const double> p_hat, std::span<const double> inner);
 
 } // namespace damslip::probability

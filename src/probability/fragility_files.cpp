@@ -46,8 +46,7 @@ std::string numbers(const std::vector<double>& values)
     return text;
 }
 
-} // namespace
-
+/// True where the lognormal curves of two limits cross within the levels: NRML then needs the discrete form.
 bool limits_cross(const NrmlModel& model)
 {
     if (model.levels.empty()) return false;
@@ -58,6 +57,8 @@ bool limits_cross(const NrmlModel& model)
                 return true;
     return false;
 }
+
+} // namespace
 
 std::string nrml_fragility(const NrmlModel& model)
 {

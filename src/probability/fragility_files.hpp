@@ -20,9 +20,6 @@ struct NrmlModel {
     std::vector<NrmlLimit> limits; ///< mildest first
 };
 
-/// True where the lognormal curves of two limits cross within the levels: NRML then needs the discrete form.
-bool limits_cross(const NrmlModel& model);
-
 /// OpenQuake's fragility model, NRML 0.5. format="continuous" shape="logncdf" with mean and standard deviation of x (not of ln x),
 /// mean = theta e^(beta^2/2), stddev = mean sqrt(e^(beta^2) - 1); format="discrete" with P at the levels where limits cross.
 /// @throws ParameterError for levels that do not rise, a name that is no word, a discrete limit without its poes

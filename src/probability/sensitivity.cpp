@@ -1,7 +1,6 @@
 #include "probability/sensitivity.hpp"
 
 #include "core/statistics.hpp"
-#include "probability/copula.hpp"
 #include "probability/distribution.hpp"
 #include "probability/sampling.hpp"
 

@@ -1,10 +1,9 @@
 // `damslip explain --ablate`: the scenes it makes, what it says of their runs, and that it says so again.
 #include "analysis/ablation/ablation.hpp"
-#include "analysis/ablation/ablation_rows.hpp"
 #include "scene/read.hpp"
 #include "scene/write.hpp"
-#include "sweep_scene.hpp"
 #include "source_dir.hpp"
+#include "sweep_scene.hpp"
 
 #include <algorithm>
 #include <cmath>

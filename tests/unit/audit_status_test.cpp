@@ -3,7 +3,7 @@
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/reducible.hpp"
 #include "analysis/screen/screening.hpp"
-#include "analysis/sweep/sweep_rows.hpp"
+#include "analysis/sweep/sweep_grid.hpp"
 #include "core/status.hpp"
 #include "pages/sweep/sweep_pages.hpp"
 #include "program_answer.hpp"

@@ -5,7 +5,7 @@
 #include "pulse_scene.hpp"
 
 #include "analysis/fragility/capacity_roots.hpp"
-#include "analysis/fragility/shaking_suite.hpp"
+#include "analysis/fragility/fragility_study.hpp"
 
 #include "core/file.hpp"
 #include "core/status.hpp"
@@ -170,20 +170,20 @@ TEST(FragilityAnswers, LimitsThatAreNotOfSlip)
     FinishedRow row;
     row.results.status = word(Status::at_rest);
     row.results.slip = row.results.max_slip = 5.0; // m: no limit of these
-    EXPECT_EQ(answer_to(opening, &row), LimitAnswer::missing);
-    EXPECT_EQ(answer_to(factor, &row), LimitAnswer::missing);
+    EXPECT_EQ(answer_to(opening, row), LimitAnswer::missing);
+    EXPECT_EQ(answer_to(factor, row), LimitAnswer::missing);
     row.results.opening = 0.02;
     row.results.factor_after = 1.2;
-    EXPECT_EQ(answer_to(opening, &row), LimitAnswer::fails);
-    EXPECT_EQ(answer_to(factor, &row), LimitAnswer::survives);
+    EXPECT_EQ(answer_to(opening, row), LimitAnswer::fails);
+    EXPECT_EQ(answer_to(factor, row), LimitAnswer::survives);
     row.results.opening = 0.005;
     row.results.factor_after = 1.0;
-    EXPECT_EQ(answer_to(opening, &row), LimitAnswer::survives);
-    EXPECT_EQ(answer_to(factor, &row), LimitAnswer::fails);
+    EXPECT_EQ(answer_to(opening, row), LimitAnswer::survives);
+    EXPECT_EQ(answer_to(factor, row), LimitAnswer::fails);
     row.results.status = word(Status::sliding_at_end);
-    EXPECT_EQ(answer_to(opening, &row), LimitAnswer::missing);
+    EXPECT_EQ(answer_to(opening, row), LimitAnswer::missing);
     row.results.status = word(Status::runs_away);
-    EXPECT_EQ(answer_to(factor, &row), LimitAnswer::fails);
+    EXPECT_EQ(answer_to(factor, row), LimitAnswer::fails);
 }
 
 // Finite elements on a rigid base: with friction 0.5 the dam at rest after a pulse holds T = W_s by mu N', so that the factor after is mu over the critical

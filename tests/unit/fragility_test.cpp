@@ -10,7 +10,7 @@
 #include "pulse_scene.hpp"
 
 #include "analysis/fragility/capacity_roots.hpp"
-#include "analysis/fragility/shaking_suite.hpp"
+#include "analysis/fragility/fragility_study.hpp"
 
 #include "core/file.hpp"
 #include "core/input_error.hpp"
@@ -197,7 +197,7 @@ TEST(Fragility, LawsStayWithinTheirKeys)
         const auto file = pulse::folder() / "read.toml";
         const SceneText text = SceneText::read(file);
         try {
-            check_supports(read_fragility_input(file), text, [&](const std::string& key) { return text.written(key); });
+            check_fragility(read_fragility_input(file), text);
         } catch (const InputError& e) {
             EXPECT_GT(e.diagnostics().front().line, 0);
             return e.what();

@@ -2,8 +2,8 @@
 // P(D > d) = F_mu(mu*).
 #include "pulse_scene.hpp"
 
+#include "analysis/fragility/fragility_study.hpp"
 #include "analysis/fragility/interval_cost.hpp"
-#include "analysis/fragility/shaking_suite.hpp"
 
 #include "core/file.hpp"
 #include "core/input_error.hpp"

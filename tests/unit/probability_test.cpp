@@ -1,11 +1,9 @@
 #include "analysis/fragility/hazard_file.hpp"
 #include "core/input_error.hpp"
-#include "probability/bands.hpp"
-#include "probability/fit.hpp"
-#include "probability/cloud_fit.hpp"
 #include "probability/annual_rate.hpp"
-#include "probability/copula.hpp"
+#include "probability/cloud_fit.hpp"
 #include "probability/distribution.hpp"
+#include "probability/fit.hpp"
 #include "probability/sampling.hpp"
 
 #include <gtest/gtest.h>

@@ -3,6 +3,7 @@
 #include "core/input_error.hpp"
 #include "program_answer.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -37,7 +38,8 @@ TEST(ComponentName, is_read_from_the_ways_agencies_name_files)
                 {"run_1940.csv", Kind::none, "run_1940"}, // a year is no azimuth
                 {"ab999.at2", Kind::none, "ab999"}};
     for (const auto& row : rows) {
-        const ComponentName found = component_of_name(row.file);
+        const std::vector<ComponentName> names = component_names(row.file);
+        const ComponentName found = *std::ranges::find(names, true, &ComponentName::alone);
         EXPECT_EQ(found.kind, row.kind) << row.file;
         EXPECT_EQ(found.base, row.base) << row.file;
     }

@@ -2,7 +2,6 @@
 #include "analysis/prepare/rigid_model.hpp"
 #include "analysis/sweep/sweep_axes.hpp"
 #include "analysis/sweep/sweep_grid.hpp"
-#include "analysis/sweep/sweep_tasks.hpp"
 #include "cli/sweep_plan.hpp"
 #include "scene/read.hpp"
 #include "source_dir.hpp"

@@ -1,6 +1,6 @@
 #include "analysis/fragility/conditioned_plan.hpp"
 #include "analysis/fragility/fragility_estimate.hpp"
-#include "analysis/sweep/sweep_rows.hpp"
+#include "analysis/sweep/sweep_grid.hpp"
 #include "probability/distribution.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/block_slip.hpp"

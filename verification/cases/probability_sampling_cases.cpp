@@ -1,6 +1,6 @@
 #include "core/statistics.hpp"
-#include "probability/bands.hpp"
 #include "probability/distribution.hpp"
+#include "probability/fit.hpp"
 #include "probability/sampling.hpp"
 #include "probability/sensitivity.hpp"
 #include "verification/cases/modules.hpp"
@@ -84,6 +84,18 @@ std::vector<Check> ishigami()
     }
     return checks;
 }
+
+/// Lognormal in both kinds: P_q(x) = Phi((ln(x / theta) + beta_U z_q) / beta_R), mean curve with beta^2 = beta_R^2 + beta_U^2
+/// (Kennedy et al. 1980).
+struct LognormalBands {
+    double median = 1.0, beta_aleatory = 0.4, beta_epistemic = 0.2;
+
+    double probability(double x, double q) const
+    {
+        return normal_cdf((std::log(x / median) + beta_epistemic * normal_quantile(q)) / beta_aleatory);
+    }
+    double mean(double x) const { return normal_cdf(std::log(x / median) / std::hypot(beta_aleatory, beta_epistemic)); }
+};
 
 /// Lognormal pulse amplitude about an uncertain median friction: P_e and its percentiles, exact and with inner noise.
 std::vector<Check> bands()

@@ -168,14 +168,6 @@ std::vector<ModelLevel> hierarchy(const HierarchyFacts& facts, const HierarchyOp
     return model_levels;
 }
 
-std::optional<ModelLevel> next_model_level(const HierarchyFacts& facts, const HierarchyOptions& options,
-                              const std::vector<ModelLevelResult>& so_far)
-{
-    for (const ModelLevel& model_level : hierarchy(facts, options, so_far))
-        if (!find(so_far, model_level)) return model_level;
-    return std::nullopt;
-}
-
 bool below(const ModelLevel& a, const ModelLevel& b)
 {
     if (a.family != b.family) return a.family < b.family;
@@ -276,6 +268,15 @@ double median(std::vector<double> values)
     std::sort(values.begin(), values.end());
     const std::size_t n = values.size();
     return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
+/// The first model level of the hierarchy without a result; nothing when it has run.
+std::optional<ModelLevel> next_model_level(const HierarchyFacts& facts, const HierarchyOptions& options,
+                                           const std::vector<ModelLevelResult>& so_far)
+{
+    for (const ModelLevel& model_level : hierarchy(facts, options, so_far))
+        if (!find(so_far, model_level)) return model_level;
+    return std::nullopt;
 }
 
 ModelLevelResult skipped(const ModelLevel& model_level, double expected, double left)

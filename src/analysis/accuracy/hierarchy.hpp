@@ -43,10 +43,6 @@ struct HierarchyOptions {
 /// in the step; the top model level at the very end.
 std::vector<ModelLevel> hierarchy(const HierarchyFacts& facts, const HierarchyOptions& options, const std::vector<ModelLevelResult>& so_far);
 
-/// The first of them without a result; nothing when the hierarchy has run.
-std::optional<ModelLevel> next_model_level(const HierarchyFacts& facts, const HierarchyOptions& options,
-                              const std::vector<ModelLevelResult>& so_far);
-
 /// Is `a` the poorer method, or the coarser model level of the same model?
 bool below(const ModelLevel& a, const ModelLevel& b);
 

@@ -19,32 +19,137 @@
 #include <string>
 #include <vector>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace damslip {
+
+namespace {
+
+/// Standard deviation of ln D.
+double natural_sigma(const sliding::RegressionResult& r)
+{
+    return r.regression->logarithm == sliding::Logarithm::decimal ? r.sigma * std::numbers::ln10 : r.sigma;
+}
+
+std::vector<sliding::RegressionResult> results_of(const Ready& ready, const RecordPair& record, const RigidModel& model)
+{
+    const double period = ready.scene.regressions.period;
+    return sliding::evaluate_all(regression_inputs(record, ready.motion(record), model, period));
+}
+
+/// In centimetres, as regressions are published.
+MotionOutcome regression_outcome(double median, const std::optional<double>& low, const std::optional<double>& high,
+                                 const std::string& message)
+{
+    MotionOutcome outcome;
+    outcome.level = SlipLevel::regressions;
+    outcome.status = Status::at_rest;
+    outcome.message = message;
+    outcome.slip = median * units::cm;
+    if (low) outcome.low = *low * units::cm;
+    if (high) outcome.high = *high * units::cm;
+    return outcome;
+}
+
+std::optional<MotionOutcome> ensemble_slip(const Scene& scene, const std::vector<sliding::RegressionResult>& results)
+{
+    std::vector<sliding::RegressionWeight> weights;
+    for (const RegressionWeightKey& key : scene.regressions.weights)
+        if (sliding::find_regression(key.model)) weights.push_back({key.model, key.weight});
+    const sliding::Ensemble e = sliding::weighted_ensemble(results, weights);
+    if (!e.median_cm) return std::nullopt;
+    return regression_outcome(*e.median_cm, e.low_cm, e.high_cm, fmt::format("{} regressions", e.members.size()));
+}
 
 /// Slip by one regression, or by all that are valid together: the median, P(D = 0) counted, or the weighted median, with
 /// 16 and 84 % where a sigma is published; the message is for the ensemble how many.
 /// @param id  of a regression, or "ensemble". Nothing where it is not valid here.
 std::optional<MotionOutcome> regression_slip(const std::string& id, const Ready& ready, const RecordPair& record,
-                                             const RigidModel& model);
+                                             const RigidModel& model)
+{
+    const std::vector<sliding::RegressionResult> results = results_of(ready, record, model);
+    if (id == "ensemble") return ensemble_slip(ready.scene, results);
+    for (const sliding::RegressionResult& r : results) {
+        if (r.regression->id == id && sliding::valid(r))
+            return regression_outcome(*r.median_cm, r.minus_sd_cm, r.plus_sd_cm, "");
+    }
+    return std::nullopt;
+}
 
 /// The three regressions with the smallest published scatter among those that are valid for all records, and
 /// "ensemble"; best first. Scatter is chosen by, not closeness to any result. Empty: none is valid, or the block slides
 /// statically.
-std::vector<std::string> best_regressions(const Scene& scene, const Records& records);
+std::vector<std::string> best_regressions(const Scene& scene, const Records& pairs)
+{
+    const Ready ready = prepare(scene, Method::rigid_block, pairs);
+    const std::vector<RecordPair>& records = ready.records();
+    const RigidModel model = ready.rigid_model();
+    if (model.state != sliding::StaticState::at_rest || records.empty()) return {};
+    std::map<std::string_view, std::pair<std::size_t, double>> seen; // id -> records it is valid for, largest scatter
+    bool ensemble = true;
+    for (const RecordPair& record : records) {
+        const auto results = results_of(ready, record, model);
+        ensemble = ensemble && ensemble_slip(ready.scene, results);
+        for (const sliding::RegressionResult& r : results) {
+            if (!sliding::valid(r) || r.sigma <= 0.0 || r.regression->use != sliding::EnsembleUse::estimate) continue;
+            auto& [count, scatter] = seen[r.regression->id];
+            ++count;
+            scatter = std::max(scatter, natural_sigma(r));
+        }
+    }
+    std::vector<std::pair<double, std::string>> order;
+    for (const auto& [id, value] : seen)
+        if (value.first == records.size()) order.emplace_back(value.second, std::string(id));
+    std::sort(order.begin(), order.end());
+    std::vector<std::string> ids;
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, order.size()); ++i) ids.push_back(order[i].second);
+    if (ensemble) ids.push_back("ensemble");
+    return ids;
+}
+
+/// A line of /proc/self/status, "VmRSS:   1234 kB" [bytes].
+std::optional<double> status_bytes(const std::string& name)
+{
+    std::ifstream status("/proc/self/status");
+    std::string word;
+    double kilobytes = 0.0;
+    while (status >> word)
+        if (word == name + ":" && status >> kilobytes) return 1024.0 * kilobytes;
+    return std::nullopt;
+}
+
+bool reset_peak()
+{
+    std::ofstream clear("/proc/self/clear_refs");
+    clear << "5"; // proc(5): the peak becomes the present size
+    clear.flush();
+    return clear.good();
+}
 
 /// Growth of the process' resident memory from when this object was made to the peak since. Linux only: the peak is
 /// reset through /proc/self/clear_refs. Memory that the allocator kept from before is handed back first, so that it does
 /// not hide what is used anew.
 class PeakMemory {
 public:
-    PeakMemory();
-    std::optional<double> bytes() const; ///< none: this system does not say
+    PeakMemory()
+    {
+#ifdef __GLIBC__
+        malloc_trim(0);
+#endif
+        if (reset_peak()) before_ = status_bytes("VmRSS");
+    }
+    std::optional<double> bytes() const ///< none: this system does not say
+    {
+        const std::optional<double> peak = status_bytes("VmHWM");
+        if (!before_ || !peak) return std::nullopt;
+        return std::max(0.0, *peak - *before_);
+    }
 
 private:
     std::optional<double> before_;
 };
-
-namespace {
 
 std::string first_line(const std::string& text)
 {
@@ -224,134 +329,6 @@ HierarchyFacts ModelLevelRunner::facts() const
             "Quadratic elements are not tried beside the scene's, which are quadratic themselves.");
     facts.coarsest = coarsest_mesh(scene_);
     return facts;
-}
-
-namespace {
-
-constexpr std::size_t shown = 3;
-
-/// Standard deviation of ln D.
-double natural_sigma(const sliding::RegressionResult& r)
-{
-    return r.regression->logarithm == sliding::Logarithm::decimal ? r.sigma * std::numbers::ln10 : r.sigma;
-}
-
-std::vector<sliding::RegressionResult> results_of(const Ready& ready, const RecordPair& record, const RigidModel& model)
-{
-    const double period = ready.scene.regressions.period;
-    return sliding::evaluate_all(regression_inputs(record, ready.motion(record), model, period));
-}
-
-/// In centimetres, as regressions are published.
-MotionOutcome regression_outcome(double median, const std::optional<double>& low, const std::optional<double>& high,
-                                 const std::string& message)
-{
-    MotionOutcome outcome;
-    outcome.level = SlipLevel::regressions;
-    outcome.status = Status::at_rest;
-    outcome.message = message;
-    outcome.slip = median * units::cm;
-    if (low) outcome.low = *low * units::cm;
-    if (high) outcome.high = *high * units::cm;
-    return outcome;
-}
-
-std::optional<MotionOutcome> ensemble_slip(const Scene& scene, const std::vector<sliding::RegressionResult>& results)
-{
-    std::vector<sliding::RegressionWeight> weights;
-    for (const RegressionWeightKey& key : scene.regressions.weights)
-        if (sliding::find_regression(key.model)) weights.push_back({key.model, key.weight});
-    const sliding::Ensemble e = sliding::weighted_ensemble(results, weights);
-    if (!e.median_cm) return std::nullopt;
-    return regression_outcome(*e.median_cm, e.low_cm, e.high_cm, fmt::format("{} regressions", e.members.size()));
-}
-
-} // namespace
-
-std::optional<MotionOutcome> regression_slip(const std::string& id, const Ready& ready, const RecordPair& record,
-                                             const RigidModel& model)
-{
-    const std::vector<sliding::RegressionResult> results = results_of(ready, record, model);
-    if (id == "ensemble") return ensemble_slip(ready.scene, results);
-    for (const sliding::RegressionResult& r : results) {
-        if (r.regression->id == id && sliding::valid(r))
-            return regression_outcome(*r.median_cm, r.minus_sd_cm, r.plus_sd_cm, "");
-    }
-    return std::nullopt;
-}
-
-std::vector<std::string> best_regressions(const Scene& scene, const Records& pairs)
-{
-    const Ready ready = prepare(scene, Method::rigid_block, pairs);
-    const std::vector<RecordPair>& records = ready.records();
-    const RigidModel model = ready.rigid_model();
-    if (model.state != sliding::StaticState::at_rest || records.empty()) return {};
-    std::map<std::string_view, std::pair<std::size_t, double>> seen; // id -> records it is valid for, largest scatter
-    bool ensemble = true;
-    for (const RecordPair& record : records) {
-        const auto results = results_of(ready, record, model);
-        ensemble = ensemble && ensemble_slip(ready.scene, results);
-        for (const sliding::RegressionResult& r : results) {
-            if (!sliding::valid(r) || r.sigma <= 0.0 || r.regression->use != sliding::EnsembleUse::estimate) continue;
-            auto& [count, scatter] = seen[r.regression->id];
-            ++count;
-            scatter = std::max(scatter, natural_sigma(r));
-        }
-    }
-    std::vector<std::pair<double, std::string>> order;
-    for (const auto& [id, value] : seen)
-        if (value.first == records.size()) order.emplace_back(value.second, std::string(id));
-    std::sort(order.begin(), order.end());
-    std::vector<std::string> ids;
-    for (std::size_t i = 0; i < std::min(shown, order.size()); ++i) ids.push_back(order[i].second);
-    if (ensemble) ids.push_back("ensemble");
-    return ids;
-}
-
-} // namespace damslip
-
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
-namespace damslip {
-
-namespace {
-
-/// A line of /proc/self/status, "VmRSS:   1234 kB" [bytes].
-std::optional<double> status_bytes(const std::string& name)
-{
-    std::ifstream status("/proc/self/status");
-    std::string word;
-    double kilobytes = 0.0;
-    while (status >> word)
-        if (word == name + ":" && status >> kilobytes) return 1024.0 * kilobytes;
-    return std::nullopt;
-}
-
-bool reset_peak()
-{
-    std::ofstream clear("/proc/self/clear_refs");
-    clear << "5"; // proc(5): the peak becomes the present size
-    clear.flush();
-    return clear.good();
-}
-
-} // namespace
-
-PeakMemory::PeakMemory()
-{
-#ifdef __GLIBC__
-    malloc_trim(0);
-#endif
-    if (reset_peak()) before_ = status_bytes("VmRSS");
-}
-
-std::optional<double> PeakMemory::bytes() const
-{
-    const std::optional<double> peak = status_bytes("VmHWM");
-    if (!before_ || !peak) return std::nullopt;
-    return std::max(0.0, *peak - *before_);
 }
 
 } // namespace damslip

@@ -74,9 +74,9 @@ TiedRuns::TiedRuns(const Ready& ready, const FeOptions& options, Watch& watch)
 {
     const Scene& scene = ready.scene;
     if (!scene.motion.sequence.empty())
-        throw InputError(Diagnostic{scene.file.string(), 0, 0, "--base tied with motion.sequence.",
-                                    "each record alone: a dam that is tied keeps nothing of an earthquake",
-                                    "delete sequence in [motion], or run without --base tied"});
+        refuse(scene.file, "--base tied with motion.sequence.",
+               "each record alone: a dam that is tied keeps nothing of an earthquake",
+               "delete sequence in [motion], or run without --base tied");
     if (is_acoustic(scene)) water_ = fe2d::build_fluid(scene);
     if (rock_radiates(scene))
         radiating_ = fe2d::radiating_rock_of(scene, model().mesh, model().mesh.contact.rock_nodes,

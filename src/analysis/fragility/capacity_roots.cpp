@@ -1,10 +1,9 @@
 #include "analysis/fragility/capacity_roots.hpp"
 
-#include "analysis/sweep/sweep_rows.hpp"
+#include "analysis/sweep/sweep_grid.hpp"
 #include "core/parallel.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
-#include "probability/copula.hpp"
 #include "probability/distribution.hpp"
 #include "probability/sampling.hpp"
 #include "sliding/block/slide_batch.hpp"
@@ -57,14 +56,6 @@ std::vector<double> yields_of_draws(const FragilityPlan& plan, const FragilityRu
     return yields;
 }
 
-bool draws_the_way_of_sliding(const FragilityPlan& plan)
-{
-    for (const RandomVariable& v : plan.variables())
-        for (const std::string& key : v.keys)
-            if (key.starts_with("sliding.") || key.starts_with("motion.")) return true;
-    return false;
-}
-
 } // namespace
 
 bool capacities_by_roots(FragilityEstimate& estimate, const FragilityPlan& plan, const FragilityRuns& runs,
@@ -72,7 +63,7 @@ bool capacities_by_roots(FragilityEstimate& estimate, const FragilityPlan& plan,
 {
     const Scene scene = text.scene();
     if (plan.input.intensity.design != FragilityDesign::ida || method.kind != SweepKind::rigid ||
-        scene.sliding.two_way || draws_the_way_of_sliding(plan))
+        scene.sliding.two_way || plan.draws_key("sliding.") || plan.draws_key("motion."))
         return false;
     const std::vector<double> yields = yields_of_draws(plan, runs, text, method, jobs);
     const Ready base = prepare(scene, Method::rigid_block, plan.suite.pairs);
@@ -204,15 +195,6 @@ private:
     std::uint32_t outer_ = 16;
 };
 
-std::size_t level_near_one_half(const LimitEstimate& limit)
-{
-    const auto nearest =
-        std::min_element(limit.levels.begin(), limit.levels.end(), [](const LevelEstimate& a, const LevelEstimate& b) {
-            return std::abs(a.p - 0.5) < std::abs(b.p - 0.5);
-        });
-    return static_cast<std::size_t>(nearest - limit.levels.begin());
-}
-
 } // namespace
 
 std::optional<FragilityCauses> fragility_causes(const FragilityPlan& plan, const FragilityEstimate& estimate,
@@ -223,7 +205,7 @@ std::optional<FragilityCauses> fragility_causes(const FragilityPlan& plan, const
     if (k == 0 || estimate.limits.empty() || plan.input.intensity.design == FragilityDesign::cloud) return std::nullopt;
     FragilityCauses causes;
     causes.limit = estimate.limits.front().limit;
-    causes.level = level_near_one_half(estimate.limits.front());
+    causes.level = level_nearest(estimate.limits.front().levels, 0.5);
     const auto draw_at = [&](std::span<const double> u) { return draw_of(plan.input, u, text.file(), written); };
     std::vector<FragilityDraw> draws;
 

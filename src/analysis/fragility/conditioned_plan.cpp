@@ -122,11 +122,6 @@ private:
     std::size_t base_replicates_ = 1;
 };
 
-LimitAnswer answer_of(const FragilityRuns& runs, const LimitInput& limit, std::size_t id)
-{
-    return answer_to(limit, runs.rows[id]);
-}
-
 bool slid_too_far(LimitAnswer answer)
 {
     return answer == LimitAnswer::fails || answer == LimitAnswer::static_failure;
@@ -169,7 +164,7 @@ public:
             for (std::size_t i = 0; i < samples_.size(); ++i)
                 for (std::size_t l = 0; l < limits.size(); ++l) {
                     const double at = middle(i, l);
-                    (slid_too_far(answer_of(runs, limits[l], i * limits.size() + l)) ? low : high)[i][l] = at;
+                    (slid_too_far(answer_to(limits[l], runs.rows[i * limits.size() + l])) ? low : high)[i][l] = at;
                 }
         }
         for (std::size_t i = 0; i < samples_.size(); ++i)
@@ -200,7 +195,7 @@ public:
             for (const LimitInput& limit : limits) {
                 bool survived = false;
                 for (std::size_t k = 0; k < n; ++k) {
-                    const LimitAnswer answer = answer_of(runs, limit, i * n + k);
+                    const LimitAnswer answer = answer_to(limit, runs.rows[i * n + k]);
                     odd |= answer == LimitAnswer::missing || (survived && slid_too_far(answer));
                     survived |= answer == LimitAnswer::survives;
                     const std::optional<FinishedRow> row = runs.rows[i * n + k];
@@ -338,50 +333,6 @@ std::vector<MotionCell> cells_of(std::size_t place, const FrictionMotion& motion
     return cells;
 }
 
-/// What a run, or a prediction, adds to the counts.
-RunCount count_of(bool stands, double fails, StaticFailure rule, double times)
-{
-    RunCount c;
-    const bool counted = stands || rule == StaticFailure::infinite;
-    c.n = counted ? times : 0.0;
-    c.z = times * (stands ? fails : rule == StaticFailure::infinite ? 1.0 : 0.0);
-    return c;
-}
-
-std::vector<std::size_t> event_of_records(const ShakingSuite& suite, std::size_t& count)
-{
-    std::vector<std::string> names;
-    std::vector<std::size_t> of;
-    for (const std::string& event : suite.event) {
-        const auto at = std::find(names.begin(), names.end(), event);
-        of.push_back(static_cast<std::size_t>(at - names.begin()));
-        if (at == names.end()) names.push_back(event);
-    }
-    count = names.size();
-    return of;
-}
-
-/// Counts by their places.
-class PlacedCounts {
-public:
-    explicit PlacedCounts(const FragilityPlan& plan) : of_(event_of_records(plan.suite, events_)) {}
-    LimitCounts none(const FragilityPlan& plan) const
-    {
-        return {plan.levels, plan.replicates, events_, plan.replicates * plan.outer};
-    }
-    void add(LimitCounts& counts, const FragilitySample& s, std::size_t replicate, const RunCount& c) const
-    {
-        counts.all[s.level].add(c);
-        counts.replicate[s.level][replicate].add(c);
-        counts.cluster[s.level][of_[s.record]].add(c);
-        counts.outer[s.level][s.outer].add(c);
-    }
-
-private:
-    std::size_t events_ = 0;
-    std::vector<std::size_t> of_;
-};
-
 /// Sum of the weights of the samples of each replicate and level, of index replicate * levels + level.
 std::vector<double> weight_sums(const WithoutFriction& others)
 {
@@ -452,7 +403,7 @@ std::vector<FailureModel> learn(const WithoutFriction& others, const std::vector
         std::vector<double> x, f;
         std::vector<std::size_t> used;
         for (std::size_t id = 0; id < pilot.plan.samples.size(); ++id) {
-            const LimitAnswer answer = answer_of(runs, others.base.input.limits[l], id);
+            const LimitAnswer answer = answer_to(others.base.input.limits[l], runs.rows[id]);
             if (answer != LimitAnswer::fails && answer != LimitAnswer::survives) continue;
             const FrictionMotion& m = motions[pilot.motion[id]];
             const double mu = std::get<double>(pilot.plan.draws[pilot.plan.samples[id].draw].changes.back().value);
@@ -567,9 +518,8 @@ ConditionedPlan condition_rigid(const FragilityInput& input, const ShakingSuite&
             n, search.motions()));
     const std::vector<FrictionMotion> motions = search.find(halvings);
     to.motions = search.motions();
-    const PlacedCounts placed(to.plan);
     const std::vector<double> sums = weight_sums(others);
-    to.counts.assign(input.limits.size(), placed.none(to.plan));
+    to.counts.assign(input.limits.size(), LimitCounts(to.plan));
     to.runs_at.assign(to.plan.levels, 0);
     const FrictionLaw& law = others.law();
     std::size_t counted = 0;
@@ -586,7 +536,7 @@ ConditionedPlan condition_rigid(const FragilityInput& input, const ShakingSuite&
                 RunCount c = count_of(false, 0.0, input.probability.static_failure, times * falls);
                 c.n += times * (1.0 - falls);
                 c.z += times * fails;
-                placed.add(to.counts[l], s, r, c);
+                to.counts[l].add(s, s.level, r, c);
             }
         }
         to.p_static += falls;
@@ -650,15 +600,14 @@ ConditionedPlan condition_finite_elements(const FragilityInput& input, const Sha
         }
     }
     const std::vector<std::size_t> n = runs_of_levels(unsure, p.front(), sizes, to.plan.replicates);
-    const PlacedCounts placed(to.plan);
-    to.counts.assign(limits, placed.none(to.plan));
+    to.counts.assign(limits, LimitCounts(to.plan));
     for (std::size_t at = 0; at < cells.size(); ++at) {
         const std::size_t r = at / levels, k = at % levels;
         for (const MotionCell& c : cells[at])
             for (std::size_t l = 0; l < limits; ++l)
-                placed.add(to.counts[l], others.base.samples[motions[c.motion].sample], r,
-                           count_of(c.cell.stands, c.cell.fails[l], input.probability.static_failure,
-                                    c.share * static_cast<double>(n[k])));
+                to.counts[l].add(others.base.samples[motions[c.motion].sample], k, r,
+                                 count_of(c.cell.stands, c.cell.fails[l], input.probability.static_failure,
+                                          c.share * static_cast<double>(n[k])));
         draw_cells(to, others, motions, cells[at], r, k, n[k]);
     }
     for (std::size_t k = 0; k < levels; ++k) to.runs_at.push_back(n[k] * to.plan.replicates);
@@ -670,15 +619,12 @@ LimitCounts counts_of(const ConditionedPlan& conditioned, const FragilityRuns& r
     LimitCounts counts = conditioned.counts[limit];
     const FragilityPlan& plan = conditioned.plan;
     const StaticFailure rule = plan.input.probability.static_failure;
-    const PlacedCounts placed(plan);
     for (std::size_t id = 0; id < conditioned.cells.size(); ++id) {
         const FrictionCell& cell = conditioned.cells[id];
-        const LimitAnswer answer = answer_of(runs, plan.input.limits[limit], id);
-        RunCount change = count_of(answer != LimitAnswer::static_failure, answer == LimitAnswer::fails ? 1.0 : 0.0,
-                                   rule, cell.weight);
-        if (answer == LimitAnswer::missing) change.missing = cell.weight;
+        RunCount change = count_of(answer_to(plan.input.limits[limit], runs.rows[id]), rule, cell.weight);
         change.add(count_of(cell.stands, cell.fails[limit], rule, 1.0), -cell.weight);
-        placed.add(counts, plan.samples[id], plan.samples[id].replicate, change);
+        const FragilitySample s = plan.samples[id];
+        counts.add(s, s.level, s.replicate, change);
     }
     return counts;
 }
@@ -688,7 +634,8 @@ double static_share(const ConditionedPlan& conditioned, const FragilityRuns& run
     double change = 0.0;
     for (std::size_t id = 0; id < conditioned.cells.size(); ++id) {
         const FrictionCell& cell = conditioned.cells[id];
-        const bool falls = answer_of(runs, conditioned.plan.input.limits.front(), id) == LimitAnswer::static_failure;
+        const bool falls =
+            answer_to(conditioned.plan.input.limits.front(), runs.rows[id]) == LimitAnswer::static_failure;
         const auto there = static_cast<double>(conditioned.runs_at[conditioned.plan.samples[id].level]);
         change += cell.weight * ((falls ? 1.0 : 0.0) - (cell.stands ? 0.0 : 1.0)) / there;
     }

@@ -1,7 +1,7 @@
 #include "analysis/fragility/fragility_estimate.hpp"
 
 #include "analysis/fragility/conditioned_plan.hpp"
-#include "analysis/sweep/sweep_rows.hpp"
+#include "analysis/sweep/sweep_grid.hpp"
 #include "core/statistics.hpp"
 #include "probability/fit.hpp"
 
@@ -12,15 +12,6 @@
 namespace damslip {
 
 namespace {
-
-/// Adds a run to its counts.
-void add_run(RunCount& c, LimitAnswer answer, double weight, StaticFailure rule)
-{
-    if (answer == LimitAnswer::static_failure && rule == StaticFailure::given_standing) return;
-    c.n += weight;
-    if (answer == LimitAnswer::fails || answer == LimitAnswer::static_failure) c.z += weight;
-    if (answer == LimitAnswer::missing) c.missing += weight;
-}
 
 /// Which events there are, and of which one each record is.
 struct Events {
@@ -41,46 +32,15 @@ Events events_of(const ShakingSuite& suite)
     return events;
 }
 
-/// Counts of the samples of a limit, one after the other.
-class LimitCounter {
-public:
-    /// @param levels, replicates  that there are counts of
-    LimitCounter(const FragilityPlan& plan, const FragilityRuns& runs, const LimitInput& limit, std::size_t levels,
-                 std::size_t replicates)
-        : runs_(runs), limit_(limit), events_(events_of(plan.suite)), rule_(plan.input.probability.static_failure),
-          counts_(levels, replicates, events_.count, replicates * plan.outer,
-                  plan.epistemic && !plan.whole_suite ? replicates * plan.inner : 0),
-          inner_(plan.inner)
-    {
-    }
-    void add(std::size_t id, const FragilitySample& s, std::size_t level)
-    {
-        const LimitAnswer answer = answer_to(limit_, runs_.rows[id]);
-        for (RunCount* c : {&counts_.all[level], &counts_.replicate[level][s.replicate],
-                            &counts_.cluster[level][events_.of_record[s.record]], &counts_.outer[level][s.outer]})
-            add_run(*c, answer, s.weight, rule_);
-        if (!counts_.inner[level].empty())
-            add_run(counts_.inner[level][s.replicate * inner_ + s.inner], answer, s.weight, rule_);
-    }
-    const LimitCounts& counts() const { return counts_; }
-
-private:
-    const FragilityRuns& runs_;
-    const LimitInput& limit_;
-    Events events_;
-    StaticFailure rule_;
-    LimitCounts counts_;
-    std::size_t inner_;
-};
-
 LimitCounts count_limit(const FragilityPlan& plan, const FragilityRuns& runs, const LimitInput& limit)
 {
-    LimitCounter counter(plan, runs, limit, plan.levels, plan.replicates);
+    LimitCounts counts(plan);
     for (std::size_t id = 0; id < plan.samples.size(); ++id) {
         const FragilitySample s = plan.samples[id];
-        counter.add(id, s, s.level);
+        counts.add(s, s.level, s.replicate,
+                   count_of(answer_to(limit, runs.rows[id]), plan.input.probability.static_failure, s.weight));
     }
-    return counter.counts();
+    return counts;
 }
 
 /// The one draw of a scene without variables, under the whole suite: P is that of the suite itself.
@@ -325,7 +285,7 @@ bool is_of_slip(const LimitInput& limit)
     return limit.quantity == LimitQuantity::slip || limit.quantity == LimitQuantity::largest_slip;
 }
 
-LimitAnswer answer_to(const LimitInput& limit, const FinishedRow* row)
+LimitAnswer answer_to(const LimitInput& limit, const std::optional<FinishedRow>& row)
 {
     const std::optional<Status> status = row ? status_of(*row) : std::nullopt;
     if (!status) return LimitAnswer::missing;
@@ -353,11 +313,6 @@ LimitAnswer answer_to(const LimitInput& limit, const FinishedRow* row)
     default:
         return LimitAnswer::missing;
     }
-}
-
-LimitAnswer answer_to(const LimitInput& limit, const std::optional<FinishedRow>& row)
-{
-    return answer_to(limit, row ? &*row : nullptr);
 }
 
 std::vector<CapacityBracket> capacity_brackets(const FragilityPlan& plan, const FragilityRuns& runs,
@@ -397,19 +352,65 @@ double LimitEstimate::missing_share() const
     return n > 0.0 ? missing / n : 0.0;
 }
 
+std::size_t level_nearest(const std::vector<LevelEstimate>& levels, double p)
+{
+    const auto far = [p](const LevelEstimate& level) { return std::abs(level.p - p); };
+    return static_cast<std::size_t>(std::ranges::min_element(levels, {}, far) - levels.begin());
+}
+
+RunCount count_of(bool stands, double fails, StaticFailure rule, double times)
+{
+    RunCount c;
+    const bool counted = stands || rule == StaticFailure::infinite;
+    c.n = counted ? times : 0.0;
+    c.z = times * (stands ? fails : rule == StaticFailure::infinite ? 1.0 : 0.0);
+    return c;
+}
+
+RunCount count_of(LimitAnswer answer, StaticFailure rule, double weight)
+{
+    RunCount c =
+        count_of(answer != LimitAnswer::static_failure, answer == LimitAnswer::fails ? 1.0 : 0.0, rule, weight);
+    if (answer == LimitAnswer::missing) c.missing = weight;
+    return c;
+}
+
+LimitCounts::LimitCounts(const FragilityPlan& plan, std::size_t levels, std::size_t replicates)
+    : inner_each_(plan.inner)
+{
+    Events events = events_of(plan.suite);
+    const std::size_t inners = plan.epistemic && !plan.whole_suite ? replicates * plan.inner : 0;
+    all.resize(levels);
+    replicate.assign(levels, std::vector<RunCount>(replicates));
+    cluster.assign(levels, std::vector<RunCount>(events.count));
+    outer.assign(levels, std::vector<RunCount>(replicates * plan.outer));
+    inner.assign(levels, std::vector<RunCount>(inners));
+    event_of_ = std::move(events.of_record);
+}
+
+void LimitCounts::add(const FragilitySample& s, std::size_t level, std::size_t replicate_of_run, const RunCount& c)
+{
+    all[level].add(c);
+    replicate[level][replicate_of_run].add(c);
+    cluster[level][event_of_[s.record]].add(c);
+    outer[level][s.outer].add(c);
+    if (!inner[level].empty()) inner[level][replicate_of_run * inner_each_ + s.inner].add(c);
+}
+
 LevelEstimate estimate_first(const FragilityPlan& plan, const FragilityRuns& runs, const LimitInput& limit,
                              std::size_t level, std::size_t replicates,
                              const std::function<bool(const FragilitySample&, std::size_t place)>& kept)
 {
-    LimitCounter counter(plan, runs, limit, 1, replicates);
+    LimitCounts counts(plan, 1, replicates);
     std::size_t place = 0;
     for (std::size_t id = 0; id < plan.samples.size(); ++id) {
         const FragilitySample s = plan.samples[id];
         if (s.level != level) continue;
         if (!kept(s, place++)) break;
-        counter.add(id, s, 0);
+        counts.add(s, 0, s.replicate,
+                   count_of(answer_to(limit, runs.rows[id]), plan.input.probability.static_failure, s.weight));
     }
-    return estimate_level(plan, counter.counts(), 0, plan.input.intensity.levels[level], false);
+    return estimate_level(plan, counts, 0, plan.input.intensity.levels[level], false);
 }
 
 FragilityEstimate estimate_fragility(const FragilityPlan& plan, const FragilityRuns& runs,

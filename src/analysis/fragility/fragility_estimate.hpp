@@ -2,7 +2,6 @@
 
 #include "analysis/fragility/fragility_runs.hpp"
 #include "probability/annual_rate.hpp"
-#include "probability/bands.hpp"
 #include "probability/cloud_fit.hpp"
 #include "probability/fit.hpp"
 
@@ -24,8 +23,7 @@ enum class LimitAnswer {
 /// Of slip, not of the opening of the base or of what it holds after the earthquake: those are of full finite-element runs.
 bool is_of_slip(const LimitInput& limit);
 
-/// A run still sliding whose largest slip exceeds the limit is a failure; what slid off its base, too. @param row  nullptr: not run
-LimitAnswer answer_to(const LimitInput& limit, const FinishedRow* row);
+/// A run still sliding whose largest slip exceeds the limit is a failure; what slid off its base, too. @param row  none: not run
 LimitAnswer answer_to(const LimitInput& limit, const std::optional<FinishedRow>& row);
 
 /// One limit at one level.
@@ -45,6 +43,9 @@ struct LevelEstimate {
     std::optional<probability::EpistemicBands> bands; ///< of lack of knowledge; none: no such variable
     std::optional<double> fitted;                     ///< of the lognormal curve, or of the cloud
 };
+
+/// Place of the level whose P is nearest to `p`, of equals the first. @param levels  not empty
+std::size_t level_nearest(const std::vector<LevelEstimate>& levels, double p);
 
 /// Rate of D > d per year.
 struct LimitRate {
@@ -115,17 +116,22 @@ struct RunCount {
     double middle() const { return 0.5 * (low() + high()); }
 };
 
+/// What `times` runs add to the counts, or a prediction. @param fails  P of one that stands
+RunCount count_of(bool stands, double fails, StaticFailure rule, double times);
+RunCount count_of(LimitAnswer answer, StaticFailure rule, double weight);
+
 /// Counts of one limit: by level and then by replicate, event, epistemic draw, and inner draw (which all epistemic draws of a replicate share).
 struct LimitCounts {
     std::vector<RunCount> all;
     std::vector<std::vector<RunCount>> replicate, cluster, outer, inner;
-    LimitCounts(std::size_t levels, std::size_t replicates, std::size_t clusters, std::size_t outers,
-                std::size_t inners = 0)
-        : all(levels), replicate(levels, std::vector<RunCount>(replicates)),
-          cluster(levels, std::vector<RunCount>(clusters)), outer(levels, std::vector<RunCount>(outers)),
-          inner(levels, std::vector<RunCount>(inners))
-    {
-    }
+
+    explicit LimitCounts(const FragilityPlan& plan) : LimitCounts(plan, plan.levels, plan.replicates) {}
+    LimitCounts(const FragilityPlan& plan, std::size_t levels, std::size_t replicates);
+    void add(const FragilitySample& s, std::size_t level, std::size_t replicate_of_run, const RunCount& c);
+
+private:
+    std::vector<std::size_t> event_of_; ///< of each record
+    std::size_t inner_each_;            ///< inner draws of a replicate
 };
 
 } // namespace damslip

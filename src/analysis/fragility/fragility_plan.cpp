@@ -2,7 +2,6 @@
 
 #include "core/input_error.hpp"
 #include "core/text.hpp"
-#include "probability/copula.hpp"
 #include "probability/distribution.hpp"
 #include "probability/sampling.hpp"
 
@@ -48,18 +47,6 @@ Distribution law_as_written(const LawInput& law)
     if (!n.has("min") && !n.has("max")) return whole;
     constexpr double infinite = std::numeric_limits<double>::infinity();
     return whole.truncated(n.has("min") ? n("min") : -infinite, n.has("max") ? n("max") : infinite);
-}
-
-/// @throws InputError with the law's line
-Distribution distribution_of(const LawInput& law, const std::filesystem::path& file)
-{
-    try {
-        return law_as_written(law);
-    } catch (const probability::ParameterError& e) {
-        throw InputError(Diagnostic{file.string(), static_cast<int>(law.where.line), 0,
-                                    fmt::format("{}: {} = {} is not allowed.", law.where.key, e.parameter(), e.value()),
-                                    e.expected(), fmt::format("write another {}", e.parameter())});
-    }
 }
 
 std::vector<std::size_t> variables_of_kind(const FragilityInput& input, VariableKind kind)
@@ -163,7 +150,7 @@ public:
         : input_(input)
     {
         for (const RandomVariable& v : input.probability.variables) {
-            laws_.push_back(distribution_of(v.law, file));
+            laws_.push_back(law_of(v, file));
             std::vector<double>& base = bases_.emplace_back();
             for (const std::string& key : v.keys) base.push_back(v.factor ? written(key) : 1.0);
         }
@@ -253,100 +240,93 @@ void check_scale(FragilityPlan& plan, const std::filesystem::path& file)
                                               s.factor, s.level + 1));
     }
     if (plan.scaled_far.empty() || limits.allow_scaling) return;
-    throw InputError(Diagnostic{
-        file.string(), 0, 0,
-        fmt::format("{} records have to be scaled by more than suite.max_scale = {} to reach their level: {}{}.",
-                    plan.scaled_far.size(), shortest(limits.max_scale), plan.scaled_far.front(),
-                    plan.scaled_far.size() > 1 ? ", ..." : ""),
-        "records that are about as strong as the level",
-        "take stronger records, lower levels, a larger suite.max_scale, or --allow-scaling"});
+    refuse(file,
+           fmt::format("{} records have to be scaled by more than suite.max_scale = {} to reach their level: {}{}.",
+                       plan.scaled_far.size(), shortest(limits.max_scale), plan.scaled_far.front(),
+                       plan.scaled_far.size() > 1 ? ", ..." : ""),
+           "records that are about as strong as the level",
+           "take stronger records, lower levels, a larger suite.max_scale, or --allow-scaling");
 }
 
 /// Draws and samples of a plan, each from its place.
 class DrawnPlan {
 public:
     /// @param plan  with its sizes, without draws and samples
-    DrawnPlan(const FragilityPlan& plan, ShakenWays ways, std::uint32_t stream, const std::filesystem::path& file,
+    DrawnPlan(FragilityPlan plan, ShakenWays ways, std::uint32_t stream, const std::filesystem::path& file,
               const NumberInFile& written)
-        : input_(plan.input), design_(input_.intensity.design), intensity_(plan.suite.intensity),
-          power_(plan.suite.power), ways_(std::move(ways)), replicates_(plan.replicates), outer_(plan.outer),
-          inner_(plan.inner), levels_(plan.levels), aleatory_draws_(plan.aleatory), whole_suite_(plan.whole_suite),
-          epistemic_(input_, VariableKind::epistemic, file), aleatory_(input_, VariableKind::aleatory, file),
-          values_(input_, file, written)
+        : plan_(std::move(plan)), ways_(std::move(ways)), epistemic_(plan_.input, VariableKind::epistemic, file),
+          aleatory_(plan_.input, VariableKind::aleatory, file), values_(plan_.input, file, written)
     {
         mean_weight_ =
             std::accumulate(ways_.weight.begin(), ways_.weight.end(), 0.0) / static_cast<double>(ways_.weight.size());
-        const bool replaced = input_.suite && input_.suite->draw == SuiteDraw::with_replacement;
+        const bool replaced = plan_.input.suite && plan_.input.suite->draw == SuiteDraw::with_replacement;
         const auto order = replaced ? probability::RecordOrder::with_replacement : probability::RecordOrder::balanced;
         const std::size_t first = std::size_t{stream} * (1u << 24);
-        for (std::size_t r = 0; r < replicates_; ++r)
-            outer_points_.push_back(epistemic_.points(outer_, static_cast<std::uint32_t>(first + r)));
-        const std::size_t sets = replicates_ * (own_levels() ? levels_ : 1);
-        way_.reserve(sets * inner_);
+        for (std::size_t r = 0; r < plan_.replicates; ++r)
+            outer_points_.push_back(epistemic_.points(plan_.outer, static_cast<std::uint32_t>(first + r)));
+        const std::size_t sets = plan_.replicates * (own_levels() ? plan_.levels : 1);
+        way_.reserve(sets * plan_.inner);
         for (std::size_t set = 0; set < sets; ++set) {
             const auto number = static_cast<std::uint32_t>(first + set);
-            inner_points_.push_back(aleatory_.points(inner_, number));
-            const probability::RecordDraw records(order, input_.probability.seed, ways_.weight, number);
-            for (std::size_t i = 0; i < inner_; ++i)
-                way_.push_back(static_cast<std::uint32_t>(whole_suite_ ? i : records(static_cast<std::uint32_t>(i))));
+            inner_points_.push_back(aleatory_.points(plan_.inner, number));
+            const probability::RecordDraw records(order, plan_.input.probability.seed, ways_.weight, number);
+            for (std::size_t i = 0; i < plan_.inner; ++i)
+                way_.push_back(
+                    static_cast<std::uint32_t>(plan_.whole_suite ? i : records(static_cast<std::uint32_t>(i))));
         }
     }
     DrawnPlan(const DrawnPlan&) = delete; // its parts point to one another
     DrawnPlan& operator=(const DrawnPlan&) = delete;
 
-    std::size_t samples() const { return replicates_ * outer_ * levels_ * inner_; }
+    std::size_t samples() const { return plan_.replicates * plan_.outer * plan_.levels * plan_.inner; }
     std::size_t draws() const
     {
-        return replicates_ * outer_ * (aleatory_draws_ ? inner_ * (own_levels() ? levels_ : 1) : 1);
+        return plan_.replicates * plan_.outer * (plan_.aleatory ? plan_.inner * (own_levels() ? plan_.levels : 1) : 1);
     }
 
     FragilityDraw draw(std::size_t place) const
     {
-        std::vector<double> u(input_.probability.variables.size());
-        const std::size_t each = draws() / (replicates_ * outer_), outer = place / each, inside = place % each;
-        const std::size_t r = outer / outer_;
-        outer_points_[r].put(outer % outer_, u);
-        inner_points_[set_of(r, inside / inner_)].put(inside % inner_, u);
+        std::vector<double> u(plan_.input.probability.variables.size());
+        const std::size_t each = draws() / (plan_.replicates * plan_.outer), outer = place / each,
+                          inside = place % each;
+        const std::size_t r = outer / plan_.outer;
+        outer_points_[r].put(outer % plan_.outer, u);
+        inner_points_[set_of(r, inside / plan_.inner)].put(inside % plan_.inner, u);
         return values_(u);
     }
 
     FragilitySample sample(std::size_t id) const
     {
-        const std::size_t outer = id / (levels_ * inner_), inside = id % (levels_ * inner_);
-        const bool by_draw = aleatory_draws_ && !own_levels(); // levels of one draw lie side by side
+        const std::size_t outer = id / (plan_.levels * plan_.inner), inside = id % (plan_.levels * plan_.inner);
+        const bool by_draw = plan_.aleatory && !own_levels(); // levels of one draw lie side by side
         FragilitySample s;
-        s.replicate = outer / outer_;
+        s.replicate = outer / plan_.outer;
         s.outer = outer;
-        s.inner = by_draw ? inside / levels_ : inside % inner_;
-        s.level = by_draw ? inside % levels_ : inside / inner_;
-        s.draw = !aleatory_draws_ ? outer : by_draw ? outer * inner_ + s.inner : id;
-        const std::size_t way = way_[set_of(s.replicate, s.level) * inner_ + s.inner];
+        s.inner = by_draw ? inside / plan_.levels : inside % plan_.inner;
+        s.level = by_draw ? inside % plan_.levels : inside / plan_.inner;
+        s.draw = !plan_.aleatory ? outer : by_draw ? outer * plan_.inner + s.inner : id;
+        const std::size_t way = way_[set_of(s.replicate, s.level) * plan_.inner + s.inner];
         s.record = ways_.record[way];
         s.polarity = ways_.polarity[way];
-        if (whole_suite_) s.weight = ways_.weight[way] / mean_weight_;
-        const double own = intensity_[s.record];
-        const bool cloud = design_ == FragilityDesign::cloud;
-        s.x = cloud ? own : input_.intensity.levels[s.level];
-        s.factor = cloud ? 1.0 : std::pow(s.x / own, 1.0 / power_);
+        if (plan_.whole_suite) s.weight = ways_.weight[way] / mean_weight_;
+        const double own = plan_.suite.intensity[s.record];
+        const bool cloud = plan_.input.intensity.design == FragilityDesign::cloud;
+        s.x = cloud ? own : plan_.input.intensity.levels[s.level];
+        s.factor = cloud ? 1.0 : std::pow(s.x / own, 1.0 / plan_.suite.power);
         return s;
     }
 
 private:
     /// The inner draws of each level are its own.
-    bool own_levels() const { return design_ == FragilityDesign::stripes; }
+    bool own_levels() const { return plan_.input.intensity.design == FragilityDesign::stripes; }
     std::size_t set_of(std::size_t replicate, std::size_t level) const
     {
-        return own_levels() ? replicate * levels_ + level : replicate;
+        return own_levels() ? replicate * plan_.levels + level : replicate;
     }
 
-    FragilityInput input_;
-    FragilityDesign design_;
-    std::vector<double> intensity_; ///< of the records
-    double power_;                  ///< ShakingSuite::power
+    FragilityPlan plan_; ///< its sizes and its suite
     ShakenWays ways_;
     double mean_weight_ = 1.0;
-    std::size_t replicates_, outer_, inner_, levels_;
-    bool aleatory_draws_, whole_suite_;
     KindOfVariables epistemic_, aleatory_;
     ValuesOfDraw values_;
     std::vector<KindOfVariables::Points> outer_points_, inner_points_; ///< of each replicate; of each inner set
@@ -355,14 +335,22 @@ private:
 
 } // namespace
 
+bool FragilityPlan::draws_key(std::string_view beginning) const
+{
+    return std::ranges::any_of(variables(), [&](const RandomVariable& v) {
+        return std::ranges::any_of(v.keys, [&](const std::string& key) { return key.starts_with(beginning); });
+    });
+}
+
 FragilityDraw draw_of(const FragilityInput& input, std::span<const double> u, const std::filesystem::path& scene_file,
                       const NumberInFile& written)
 {
     return ValuesOfDraw(input, scene_file, written)(u);
 }
 
-void check_supports(const FragilityInput& input, const SceneText& text, const NumberInFile& written)
+void check_fragility(const FragilityInput& input, const SceneText& text)
 {
+    const NumberInFile written = [&text](const std::string& key) { return text.written(key); };
     const double beyond = std::exp2(-40.0);
     const std::vector<RandomVariable>& variables = input.probability.variables;
     std::vector<double> u(variables.size(), 0.5);
@@ -392,7 +380,14 @@ void check_supports(const FragilityInput& input, const SceneText& text, const Nu
 
 Distribution law_of(const RandomVariable& variable, const std::filesystem::path& scene_file)
 {
-    return distribution_of(variable.law, scene_file);
+    const LineOfFile& where = variable.law.where;
+    try {
+        return law_as_written(variable.law);
+    } catch (const probability::ParameterError& e) {
+        throw InputError(Diagnostic{scene_file.string(), static_cast<int>(where.line), 0,
+                                    fmt::format("{}: {} = {} is not allowed.", where.key, e.parameter(), e.value()),
+                                    e.expected(), fmt::format("write another {}", e.parameter())});
+    }
 }
 
 FragilityPlan plan_fragility(const FragilityInput& input, ShakingSuite suite, const FragilitySizes& sizes,

@@ -122,6 +122,7 @@ struct FragilityPlan {
     std::vector<std::string> scaled_far; ///< records beyond max_scale, with their factor: "ec8: 5.1 at 0.8 g"
 
     const std::vector<RandomVariable>& variables() const { return input.probability.variables; }
+    bool draws_key(std::string_view beginning) const; ///< some variable has a key that begins so
 };
 
 /// What the file says of a key that is drawn as a factor, in the key's unit.
@@ -133,7 +134,7 @@ FragilityPlan plan_fragility(const FragilityInput& input, ShakingSuite suite, co
 
 /// Reads the scene with both ends of every law, 2^-40 of its probability left beyond each, so that no run stops half-way at a value
 /// that its key does not allow. @throws InputError with the law's line, the value, what the key allows and the fix
-void check_supports(const FragilityInput& input, const SceneText& text, const NumberInFile& written);
+void check_fragility(const FragilityInput& input, const SceneText& text);
 
 /// The law of a variable, without the factor's base. @throws InputError with the law's line
 probability::Distribution law_of(const RandomVariable& variable, const std::filesystem::path& scene_file);

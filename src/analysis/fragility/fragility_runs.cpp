@@ -3,7 +3,7 @@
 #include "analysis/fe/contact_runs.hpp"
 #include "analysis/fragility/fragility_estimate.hpp"
 #include "analysis/prepare/plane_model.hpp"
-#include "analysis/sweep/sweep_rows.hpp"
+#include "analysis/sweep/sweep_grid.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
@@ -70,14 +70,6 @@ std::string words_of(const FragilityDraw& draw, LeftOut left_out)
 std::string words_without_friction(const FragilityDraw& draw)
 {
     return words_of(draw, [](const std::string& key) { return key == friction_key; });
-}
-
-bool draws_motion(const FragilityPlan& plan)
-{
-    for (const RandomVariable& v : plan.variables())
-        for (const std::string& key : v.keys)
-            if (key.starts_with("motion.")) return true;
-    return false;
 }
 
 /// Rows of samples as they finish, from several threads.
@@ -156,7 +148,7 @@ public:
     RigidSamples(const FragilityPlan& plan, const SceneText& text, const SweepMethod& method)
         : plan_(plan), text_(text), rocks_(method.kind == SweepKind::rocking),
           with_vertical_(rocks_ || method.kind == SweepKind::rigid_vertical),
-          base_(prepare(text.scene(), Method::rigid_block, plan.suite.pairs)), own_motion_(draws_motion(plan))
+          base_(prepare(text.scene(), Method::rigid_block, plan.suite.pairs)), own_motion_(plan.draws_key("motion."))
     {
     }
 

@@ -2,16 +2,24 @@
 
 #include "analysis/fragility/capacity_roots.hpp"
 #include "analysis/fragility/hazard_file.hpp"
-#include "analysis/fragility/shaking_suite.hpp"
+#include "analysis/prepare/flexible_mass.hpp"
 #include "analysis/prepare/plane_model.hpp"
+#include "analysis/prepare/record_list.hpp"
 #include "analysis/prepare/reducible.hpp"
+#include "core/file.hpp"
 #include "core/input_error.hpp"
+#include "records/measure/measures.hpp"
+#include "records/read/header.hpp"
+#include "records/read/read_record.hpp"
+#include "records/transform/transform.hpp"
 #include "scene/effect_plan.hpp"
 #include "scene/plausible.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <map>
 
 namespace damslip {
 
@@ -46,30 +54,25 @@ void check_limits(const FragilityInput& input, const Scene& scene, const SweepMe
 {
     if (const std::string& plane = input.limits.front().plane; plane != base_plane) {
         const std::vector<std::string> names = plane_names(scene);
-        const auto refuse = [&](const std::string& problem, const std::string& expected, const char* fix) {
-            throw InputError(Diagnostic{file.string(), 0, 0, problem, expected, fix});
-        };
         if (method.kind != SweepKind::rigid && method.kind != SweepKind::rigid_vertical)
-            refuse(fmt::format("limit.plane = \"{}\" by {}.", plane, method.id), "rigid or rigid-v: lifts and seams are rigid blocks",
-                   "write  --method rigid-v , or delete plane");
+            refuse(file, fmt::format("limit.plane = \"{}\" by {}.", plane, method.id),
+                   "rigid or rigid-v: lifts and seams are rigid blocks", "write  --method rigid-v , or delete plane");
         if (plane != any_plane && std::find(names.begin(), names.end(), plane) == names.end())
-            refuse(fmt::format("limit.plane = \"{}\" names no plane of the scene.", plane),
+            refuse(file, fmt::format("limit.plane = \"{}\" names no plane of the scene.", plane),
                    fmt::format("{}, any", fmt::join(names, ", ")), "take one of these");
     }
     const bool full = method.kind == SweepKind::finite_elements && !method.reduced;
     for (const LimitInput& limit : input.limits) {
         if (is_of_slip(limit)) continue;
         if (!full)
-            throw InputError(Diagnostic{
-                file.string(), 0, 0, fmt::format("limit \"{}\" is not computed by {}.", limit.text, method.id),
-                "a method that follows the base point by point: a rigid block has no opening before "
-                "it lifts off whole, few modes keep no state after the earthquake",
-                "write  --method fe , or limit.quantity = \"slip\""});
+            refuse(file, fmt::format("limit \"{}\" is not computed by {}.", limit.text, method.id),
+                   "a method that follows the base point by point: a rigid block has no opening before "
+                   "it lifts off whole, few modes keep no state after the earthquake",
+                   "write  --method fe , or limit.quantity = \"slip\"");
         if (input.intensity.design == FragilityDesign::cloud)
-            throw InputError(Diagnostic{file.string(), 0, 0,
-                                        fmt::format("limit \"{}\" with design = \"cloud\".", limit.text),
-                                        "slip: the cloud is a regression of slips",
-                                        "write  design = \"stripes\" , or limit.quantity = \"slip\""});
+            refuse(file, fmt::format("limit \"{}\" with design = \"cloud\".", limit.text),
+                   "slip: the cloud is a regression of slips",
+                   "write  design = \"stripes\" , or limit.quantity = \"slip\"");
     }
 }
 
@@ -88,24 +91,13 @@ probability::HazardCurve hazard_of(const FragilityInput& input, const Scene& sce
         const auto range = [&](double from, double to) {
             return fmt::format("{:g} to {:g} {}", from / of.level_unit, to / of.level_unit, of.level_unit_text);
         };
-        throw InputError(
-            Diagnostic{input.hazard->curve.string(), 0, 0,
-                       fmt::format("the hazard curve goes from {}, the levels from {}: no rate comes of them.",
-                                   range(x.front(), x.back()), range(levels.front(), levels.back())),
-                       "levels within the hazard curve, at least in part",
-                       "change the levels of [intensity], or take a curve that reaches them"});
+        refuse(input.hazard->curve,
+               fmt::format("the hazard curve goes from {}, the levels from {}: no rate comes of them.",
+                           range(x.front(), x.back()), range(levels.front(), levels.back())),
+               "levels within the hazard curve, at least in part",
+               "change the levels of [intensity], or take a curve that reaches them");
     }
     return std::move(file.curve);
-}
-
-/// The limit's level with P nearest to 0.1.
-std::size_t level_near_a_tenth(const LimitEstimate& limit)
-{
-    const auto nearest =
-        std::min_element(limit.levels.begin(), limit.levels.end(), [](const LevelEstimate& a, const LevelEstimate& b) {
-            return std::abs(a.p - 0.1) < std::abs(b.p - 0.1);
-        });
-    return static_cast<std::size_t>(nearest - limit.levels.begin());
 }
 
 } // namespace
@@ -118,11 +110,6 @@ FragilityPlan FragilityStudy::plan(std::size_t samples, std::uint32_t stream) co
 const SweepMethod& FragilityStudy::rigid() const
 {
     return method_of_fragility("", suite.pairs, scene);
-}
-
-void check_fragility(const FragilityInput& input, const SceneText& text)
-{
-    check_supports(input, text, [&text](const std::string& key) { return text.written(key); });
 }
 
 FragilityStudy open_fragility(SceneText text, Scene scene, FragilityInput input, const std::string& method)
@@ -218,7 +205,7 @@ FragilityAnswer answer_fragility(const FragilityStudy& study, const FragilityPla
         const bool cloud = input.intensity.design == FragilityDesign::cloud;
         if (!conditioned && !cloud)
             for (const LimitEstimate& limit : answer.estimate.limits)
-                for (IntervalPoint& point : own_prefixes(plan, runs, limit.limit, level_near_a_tenth(limit)))
+                for (IntervalPoint& point : own_prefixes(plan, runs, limit.limit, level_nearest(limit.levels, 0.1)))
                     answer.own_cost.push_back(std::move(point));
         if (extras.rows > 0 && is_of_slip(input.limits.front()))
             answer.causes = fragility_causes(plan, answer.estimate, study.text, study.written, study.rigid(),
@@ -243,6 +230,135 @@ FragilityAnswer answer_fragility(const FragilityStudy& study, const FragilityPla
                                                limit.limit.text, 100.0 * limit.missing_share()));
         }
     return answer;
+}
+
+double first_period_of(const Scene& scene)
+{
+    Scene with_modes = scene;
+    with_modes.flexible_block.emplace();
+    with_modes.flexible_block->of_modes = true;
+    resolve_flexible_modes(with_modes);
+    return with_modes.flexible_block->period.value();
+}
+
+namespace {
+
+Record horizontal_of(const GroundMotion& motion)
+{
+    Record record;
+    record.name = motion.name;
+    record.dt = motion.dt;
+    record.acceleration = motion.accel_h;
+    return record;
+}
+
+/// The other horizontal component with the factor that the first one has.
+Record other_horizontal(const RecordPair& pair, const Record& first)
+{
+    records::ReadOptions options;
+    options.unit = pair.files.unit;
+    options.dt = pair.files.dt;
+    if (*pair.files.other_horizontal ==
+        pair.files.horizontal) // of one file: the horizontal channel that is not the first
+        for (const Record& channel :
+             records::parse_record(read_file(pair.files.horizontal), pair.files.horizontal.string(), options))
+            if (records::component_in(channel.source.component) == records::Component::horizontal &&
+                channel.source.component != pair.horizontal.source.component)
+                options.column = channel.source.component;
+    const Record other = records::read_record(*pair.files.other_horizontal, options);
+    const double read = records::measure(pair.horizontal).pga;
+    return records::scaled(other, read > 0.0 ? records::measure(first).pga / read : 1.0);
+}
+
+/// Intensity of one horizontal component as it shakes the dam [SI]. @param first_period  T_1 of the dam [s], for SA(T1)
+/// @param index  asked first; what it lacks is added
+double intensity_of(const Record& horizontal, const IntensityInput& intensity, double first_period,
+                    records::SuiteIndex& index)
+{
+    const auto spectral = [&](std::span<const double> periods) {
+        double sum = 0.0;
+        for (const double value : index.spectrum(horizontal, periods)) sum += std::log(value);
+        return std::exp(sum / static_cast<double>(periods.size()));
+    };
+    switch (intensity.measure) {
+    case IntensityMeasure::sa:
+        if (intensity.first_period) return spectral({&first_period, 1});
+        return spectral(intensity.periods);
+    case IntensityMeasure::avg_sa:
+        return spectral(intensity.periods);
+    case IntensityMeasure::pga:
+        return index.measures(horizontal).pga;
+    case IntensityMeasure::pgv:
+        return index.measures(horizontal).pgv;
+    case IntensityMeasure::arias:
+        return index.measures(horizontal).arias_intensity;
+    case IntensityMeasure::cav:
+        break;
+    }
+    return index.measures(horizontal).cumulative_velocity;
+}
+
+} // namespace
+
+ShakingSuite suite_of_input(const Scene& scene, const FragilityInput& input)
+{
+    Scene of = scene;
+    RecordList files;
+    std::filesystem::path index; // of the scene's own records none: few, and a folder may hold others
+    if (input.suite && !input.suite->files.empty()) {
+        files = record_list(input.suite->files);
+        index = files.folder;
+        of.motion.records = files.records;
+        of.motion.sequence.clear();
+    }
+    if (of.motion.records.empty())
+        throw InputError(Diagnostic{scene.file.string(), static_cast<int>(input.suite ? input.suite->where.line : 0), 0,
+                                    input.suite && !input.suite->files.empty()
+                                        ? fmt::format("suite.files = \"{}\" names no record.", input.suite->files)
+                                        : std::string("there is no record."),
+                                    "a folder, a pattern or a list of records that are there, or [[motion.record]]",
+                                    "make or fetch the records first, or correct the path:  files = \"suite/*.AT2\""});
+    const IntensityInput& intensity = input.intensity;
+    records::SuiteIndex measures(index);
+    ShakingSuite suite;
+    suite.pairs = load_records(of, Method::rigid_block);
+    suite.event = std::move(files.events);
+    suite.weight = std::move(files.weights);
+    suite.made = files.made;
+    suite.notes = files.notes;
+    suite.power = power_of_scale(intensity.measure);
+    const Ready ready = prepare(of, Method::rigid_block, suite.pairs);
+    const double period = intensity.first_period ? first_period_of(of) : 0.0;
+    std::map<std::string, std::string> seen; // checksum to name
+    const bool events = !suite.event.empty(), weights = !suite.weight.empty();
+    const bool both = intensity.component == IntensityComponent::geomean;
+    std::size_t alone = 0;
+    for (const RecordPair& pair : *suite.pairs) {
+        const std::string& name = pair.files.name;
+        if (!events) suite.event.push_back(name);
+        if (!weights) suite.weight.push_back(1.0);
+        const Record horizontal = horizontal_of(ready.motion(pair));
+        suite.intensity.push_back(intensity_of(horizontal, intensity, period, measures));
+        if (both && pair.files.other_horizontal)
+            suite.intensity.back() = std::sqrt(
+                suite.intensity.back() * intensity_of(other_horizontal(pair, horizontal), intensity, period, measures));
+        else if (both)
+            ++alone;
+        if (!(suite.intensity.back() > 0.0))
+            refuse(pair.files.horizontal, fmt::format("{} of this record is 0.", intensity.text),
+                   "a record that shakes", "leave it out");
+        const std::string& sum = pair.horizontal.source.sha256;
+        if (const auto [at, fresh] = seen.emplace(sum + " " + pair.files.column, name); !sum.empty() && !fresh)
+            refuse(pair.files.horizontal, fmt::format("the records \"{}\" and \"{}\" are the same.", at->second, name),
+                   "each record once; how often one is met is its weight", "leave one out");
+    }
+    if (both)
+        suite.notes.push_back(fmt::format(
+            "{} is the geometric mean of both horizontal components{}.", intensity.text,
+            alone == 0 ? ""
+                       : fmt::format("; of {} of {} records that of the one there is", alone, suite.pairs->size())));
+    measures.keep();
+    return suite;
 }
 
 } // namespace damslip

@@ -2,7 +2,9 @@
 
 #include "analysis/fragility/capacity_roots.hpp"
 #include "analysis/fragility/conditioned_plan.hpp"
+#include "analysis/fragility/fragility_plan.hpp"
 #include "analysis/fragility/interval_cost.hpp"
+#include "records/suite/suite.hpp"
 
 namespace damslip {
 
@@ -27,9 +29,6 @@ struct FragilityStudy {
     }
     const SweepMethod& rigid() const; ///< the rigid block that goes with the records
 };
-
-/// Laws within what their keys allow. @throws InputError with line, value and fix
-void check_fragility(const FragilityInput& input, const SceneText& text);
 
 /// check_fragility(), then reads and measures the records. @param method  rigid, rigid-v, fe, fe-exact ...; empty: rigid-v where a record has a vertical component,
 /// else rigid
@@ -82,5 +81,17 @@ struct FragilityAnswer {
 FragilityAnswer answer_fragility(const FragilityStudy& study, const FragilityPlan& plan, const FragilityRuns& runs,
                                  const FragilityExtras& extras, Watch& watch,
                                  const ConditionedPlan* conditioned = nullptr);
+
+/// T_1 of the dam on its rock with the water that moves with it, for SA(T1) [s]. @throws InputError, NotConverged
+double first_period_of(const Scene& scene);
+
+/// The records of [suite] files, or those of the scene where it names none, measured. Files: a folder, a glob, or a CSV with the columns
+/// horizontal and, as far as they are wanted, vertical, other_horizontal, event, weight, magnitude, scale; or a list of seeds. Their measures are
+/// kept in its folder (records/suite/suite.hpp). Intensities are as the scene scales the records. Each is an event of its own, of weight 1,
+/// unless the lists say else. The geometric mean is that of both horizontal components, with one factor on both; of a record that has no
+/// other it is that of the one.
+/// @throws InputError for files that are missing or cannot be read, for a CSV with other columns, for a record without any
+/// shaking, for the same record twice
+ShakingSuite suite_of_input(const Scene& scene, const FragilityInput& input);
 
 } // namespace damslip

@@ -11,72 +11,29 @@ namespace damslip {
 
 namespace {
 
-/// The samples of a plan that are kept, at one level, and their rows.
-struct PartOfRuns {
-    FragilityPlan plan;
-    FragilityRuns runs;
-};
-
-template <class Kept>
-PartOfRuns part_of_runs(const FragilityPlan& plan, const FragilityRuns& runs, const LimitInput& limit,
-                        std::size_t level, Kept kept)
+bool all_kept(const FragilitySample&, std::size_t)
 {
-    PartOfRuns part;
-    part.plan.input = plan.input;
-    part.plan.input.limits = {limit};
-    part.plan.input.intensity.levels = {plan.input.intensity.levels[level]};
-    part.plan.suite = plan.suite;
-    part.plan.draws = plan.draws;
-    part.plan.replicates = plan.replicates;
-    part.plan.outer = plan.outer;
-    part.plan.inner = plan.inner;
-    part.plan.epistemic = plan.epistemic;
-    part.plan.aleatory = plan.aleatory;
-    part.plan.whole_suite = plan.whole_suite;
-    part.runs.yield = runs.yield;
-    std::size_t place = 0; // at the level
-    std::vector<std::size_t> ids;
-    for (std::size_t id = 0; id < plan.samples.size(); ++id) {
-        FragilitySample s = plan.samples[id];
-        if (s.level != level || !kept(s, place++)) continue;
-        s.level = 0;
-        part.plan.samples.push_back(s);
-        ids.push_back(id);
-    }
-    part.runs.rows = PackedRows(ids.size());
-    for (std::size_t i = 0; i < ids.size(); ++i)
-        if (std::optional<FinishedRow> row = runs.rows[ids[i]]) {
-            row->id = i;
-            part.runs.rows.put(*row);
-        }
-    part.runs.wanted = part.plan.samples.size();
-    part.runs.seconds =
-        runs.seconds * static_cast<double>(part.plan.samples.size()) / static_cast<double>(plan.samples.size());
-    return part;
+    return true;
 }
 
-PartOfRuns first_runs(const FragilityPlan& plan, const FragilityRuns& runs, std::size_t n)
-{
-    return part_of_runs(plan, runs, plan.input.limits.front(), 0,
-                        [n](const FragilitySample&, std::size_t place) { return place < n; });
-}
-
-IntervalPoint point_of(const LevelEstimate& e, std::size_t runs, double seconds, std::string estimator)
+/// The estimate of one level from its first samples, as long as they are kept.
+IntervalPoint point_of(const FragilityPlan& plan, const FragilityRuns& runs, const LimitInput& limit, std::size_t level,
+                       std::size_t replicates, const std::string& estimator,
+                       const std::function<bool(const FragilitySample&, std::size_t place)>& kept)
 {
     IntervalPoint point;
-    point.estimator = std::move(estimator);
-    point.runs = runs;
-    point.seconds = seconds;
+    point.estimator = estimator;
+    const LevelEstimate e =
+        estimate_first(plan, runs, limit, level, replicates, [&](const FragilitySample& s, std::size_t place) {
+            const bool counts = kept(s, place);
+            point.runs += counts;
+            return counts;
+        });
+    point.seconds = runs.seconds * (static_cast<double>(point.runs) / static_cast<double>(plan.samples.size()));
     point.p = e.p;
     point.interval = e.sampling;
     if (e.n <= 0.0) point.remark = "no draw stands without an earthquake";
     return point;
-}
-
-IntervalPoint point_of(const PartOfRuns& part, std::string estimator)
-{
-    const LevelEstimate e = estimate_fragility(part.plan, part.runs, nullptr, {}).limits.front().levels.front();
-    return point_of(e, part.plan.samples.size(), part.runs.seconds, std::move(estimator));
 }
 
 /// The estimates of one scene at one level.
@@ -171,7 +128,9 @@ private:
                     points_.push_back(replicated(SamplingInput::random, "plain", n));
                     continue;
                 }
-                IntervalPoint point = point_of(first_runs(longest, runs, n), "plain");
+                IntervalPoint point =
+                    point_of(longest, runs, longest.input.limits.front(), 0, longest.replicates, "plain",
+                             [n](const FragilitySample&, std::size_t place) { return place < n; });
                 if (!runs.complete()) point.remark = "interrupted";
                 points_.push_back(std::move(point));
             }
@@ -186,9 +145,7 @@ private:
         const FragilityPlan plan = plan_of(sampling, n, 0);
         const FragilityRuns runs = run(plan, options_.method);
         if (stopped(point)) return point;
-        return point_of(part_of_runs(plan, runs, plan.input.limits.front(), 0,
-                                     [](const FragilitySample&, std::size_t) { return true; }),
-                        name);
+        return point_of(plan, runs, plan.input.limits.front(), 0, plan.replicates, name, all_kept);
     }
 
     FragilityInput input_;
@@ -206,7 +163,6 @@ double level_near_a_tenth(const FragilityInput& input, const ShakingSuite& suite
                           const NumberInFile& written, const IntervalCostOptions& options, Watch& watch)
 {
     constexpr std::size_t draws = 256;
-    constexpr double wanted = 0.1;
     FragilityInput random = input;
     random.probability.sampling = SamplingInput::random;
     random.probability.replicates = 1;
@@ -215,11 +171,7 @@ double level_near_a_tenth(const FragilityInput& input, const ShakingSuite& suite
         run_fragility(plan, text, sweep_method(options.rigid), wanted_samples(plan), nullptr, options.jobs, watch);
     const FragilityEstimate estimate = estimate_fragility(plan, runs, nullptr, {});
     const std::vector<LevelEstimate>& levels = estimate.limits.front().levels;
-    const auto nearest =
-        std::min_element(levels.begin(), levels.end(), [](const LevelEstimate& a, const LevelEstimate& b) {
-            return std::abs(a.p - wanted) < std::abs(b.p - wanted);
-        });
-    return nearest->x;
+    return levels[level_nearest(levels, 0.1)].x;
 }
 
 } // namespace
@@ -242,9 +194,8 @@ IntervalCost interval_cost(const FragilityInput& given, const ShakingSuite& suit
                            const NumberInFile& written, const IntervalCostOptions& options, Watch& watch)
 {
     if (given.probability.variables.empty())
-        throw InputError(
-            Diagnostic{text.file().string(), 0, 0, "nothing is drawn: the scene has no [[probability.variable]].",
-                       "a variable at least: of records alone P is exact", "add a [[probability.variable]]"});
+        refuse(text.file(), "nothing is drawn: the scene has no [[probability.variable]].",
+               "a variable at least: of records alone P is exact", "add a [[probability.variable]]");
     FragilityInput input = given;
     input.limits.resize(1);
     input.intensity.design = FragilityDesign::stripes;
@@ -267,17 +218,10 @@ std::vector<IntervalPoint> own_prefixes(const FragilityPlan& plan, const Fragili
     const bool independent = plan.input.probability.sampling == SamplingInput::random && !plan.epistemic;
     const std::size_t at_level = plan.samples.size() / plan.levels;
     const std::size_t all = independent ? at_level : plan.replicates, least = independent ? 16 : 2;
-    for (std::size_t n = all; n >= least; n /= 2) {
-        std::size_t used = 0;
-        const LevelEstimate e = estimate_first(plan, runs, limit, level, independent ? plan.replicates : n,
-                                               [&](const FragilitySample& s, std::size_t place) {
-                                                   const bool kept = independent ? place < n : s.replicate < n;
-                                                   used += kept;
-                                                   return kept;
-                                               });
-        const double share = static_cast<double>(used) / static_cast<double>(plan.samples.size());
-        points.push_back(point_of(e, used, runs.seconds * share, limit.text));
-    }
+    for (std::size_t n = all; n >= least; n /= 2)
+        points.push_back(point_of(
+            plan, runs, limit, level, independent ? plan.replicates : n, limit.text,
+            [&](const FragilitySample& s, std::size_t place) { return independent ? place < n : s.replicate < n; }));
     std::reverse(points.begin(), points.end());
     return points;
 }

@@ -22,11 +22,6 @@ constexpr double least_modulus_dam = 1e9, least_modulus_rock = 1e8, largest_modu
 constexpr double determined =
     std::numbers::ln2; ///< a modulus whose logarithm is known to less than this follows from the frequencies
 
-[[noreturn]] void refuse_scene(const Scene& scene, std::string problem, std::string expected, std::string fix)
-{
-    throw InputError(Diagnostic{scene.file.string(), 0, 0, std::move(problem), std::move(expected), std::move(fix)});
-}
-
 /// The scene with the water of a measurement.
 Scene at_level(Scene scene, const std::optional<double>& level)
 {
@@ -111,22 +106,22 @@ private:
 void check(const Scene& given, const CalibrateOptions& options)
 {
     if (!given.dam.young_modulus)
-        refuse_scene(given, "dam.young_modulus is missing.", "a first guess", "add  young_modulus_GPa = 25  to [dam]");
+        refuse(given.file, "dam.young_modulus is missing.", "a first guess", "add  young_modulus_GPa = 25  to [dam]");
     const double crest = crest_level(given.section);
     for (const MeasuredFrequency& m : options.measured) {
         if (!m.level) continue;
         if (!given.reservoir)
-            refuse_scene(given, "a frequency at a water level of its own, but the scene has no [reservoir].",
-                         "--frequency alone for a dam without water", "add [reservoir] to the scene");
+            refuse(given.file, "a frequency at a water level of its own, but the scene has no [reservoir].",
+                   "--frequency alone for a dam without water", "add [reservoir] to the scene");
         if (*m.level < 0.0 || *m.level > crest)
-            refuse_scene(given, fmt::format("a frequency at a water level of {:g} m.", *m.level),
-                         fmt::format("metres above the heel, 0 to the crest at {:g} m", crest), "check the datum");
+            refuse(given.file, fmt::format("a frequency at a water level of {:g} m.", *m.level),
+                   fmt::format("metres above the heel, 0 to the crest at {:g} m", crest), "check the datum");
     }
     const Damping& d = given.damping;
     if (options.damping && (d.method == DampingMethod::none || d.mass_coefficient))
-        refuse_scene(given, "--damping, but the scene does not damp by damping.ratio.",
-                     "damping.method rayleigh or modified-rayleigh without coefficients of its own",
-                     "delete method = \"none\" or the coefficients, or leave --damping out");
+        refuse(given.file, "--damping, but the scene does not damp by damping.ratio.",
+               "damping.method rayleigh or modified-rayleigh without coefficients of its own",
+               "delete method = \"none\" or the coefficients, or leave --damping out");
 }
 
 /// @param k  0: of the dam, 1: of the rock
@@ -261,8 +256,8 @@ Calibration calibrate(const Scene& given, const CalibrateOptions& options)
     Eigen::Vector2d start(std::log(*given.dam.young_modulus), 0.0);
     if (given.foundation) {
         if (!given.foundation->material.young_modulus)
-            refuse_scene(given, "foundation.young_modulus is missing.", "a first guess",
-                         "add  young_modulus_GPa = 25  to [foundation]");
+            refuse(given.file, "foundation.young_modulus is missing.", "a first guess",
+                   "add  young_modulus_GPa = 25  to [foundation]");
         start[1] = std::log(*given.foundation->material.young_modulus);
     }
 

@@ -98,10 +98,8 @@ sliding::FlexibleSlide slide_model(const Scene& scene, const sliding::FlexibleBl
                                      {column->velocity, 100.0 * column->strain, std::int64_t{column->iterations}}});
         return found;
     }
-    double strongest = found.peak_acceleration;
-    for (const double a : motion.accel_h) strongest = std::max(strongest, std::abs(a));
     check_length(model, found.slide);
-    check_tipping(model, strongest, found.slide);
+    check_tipping(model, std::max(found.peak_acceleration, peak_of(motion.accel_h)), found.slide);
     return found;
 }
 

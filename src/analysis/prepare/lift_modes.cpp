@@ -217,8 +217,7 @@ std::vector<sliding::LiftAmplification> lift_amplification(const LiftModes& mode
     const Eigen::MatrixXd correlation = fe2d::modal_correlations(frequency, ratio, fe2d::ModalRule::cqc);
     for (const sliding::SkippingMotion& skipping : motions) {
         const GroundMotion& motion = skipping.motion();
-        double pga = 0.0;
-        for (const double a : motion.accel_h) pga = std::max(pga, std::abs(a));
+        const double pga = peak_of(motion.accel_h);
         if (!(pga > 0.0)) continue;
         const records::ResponseSpectrum spectrum = records::response_spectrum(motion.accel_h, motion.dt, periods, ratio);
         const auto peak = [&](const sliding::ModalShares& s) { // over that of the ground; the rest by the root of squares

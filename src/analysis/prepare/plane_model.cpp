@@ -26,7 +26,10 @@ std::vector<std::string> plane_names(const Scene& scene)
     return names;
 }
 
-RigidModel plane_model(sliding::SlipStages stages, double length, double amplification, bool one_way)
+namespace {
+
+/// The model of a plane's stages. @param length  of what it slides on [m] @param amplification  of the ground's motion [-]
+RigidModel model_of(sliding::SlipStages stages, double length, double amplification)
 {
     RigidModel model;
     model.block = stages.front().block;
@@ -39,31 +42,18 @@ RigidModel plane_model(sliding::SlipStages stages, double length, double amplifi
     model.critical_friction = sliding::critical_friction(model.block);
     model.length = length;
     model.amplification = amplification;
-    model.one_way = one_way;
     return model;
 }
-
-void add_bodies(const sliding::SeamPlane& plane, RigidModel& model)
-{
-    model.upstream = plane.upstream;
-    if (!plane.bodies.empty()) model.bodies = std::make_shared<const std::vector<sliding::SeamStage>>(plane.bodies);
-}
-
-namespace {
 
 RigidModel model_of(const Scene& scene, const Seam& seam, KeptStatics& kept)
 {
     sliding::SeamPlane plane = sliding::seam_plane(scene, seam, {}, *kept.seams.get(scene, seam));
-    RigidModel model =
-        plane_model(std::move(plane.stages), plane.model.chain.blocks[plane.model.chain.dam].length, 1.0, !plane.of_block);
-    model.critical_friction = plane.holding_friction;
-    add_bodies(plane, model);
-    return model;
+    return plane_model(plane);
 }
 
 RigidModel model_of(const Scene& scene, sliding::LiftPlane& lift, KeptStatics& kept)
 {
-    RigidModel model = plane_model(std::move(lift.stages), lift.length, lift.mean_amplification, false);
+    RigidModel model = plane_model(lift);
     if (!lifts_vibrate(scene)) return model;
     const LiftModes& modes = kept.lifts.get([&] { return lift_modes(scene); });
     model.tied = std::make_shared<const sliding::TiedPart>(modes.part(lift.elevation));
@@ -72,16 +62,19 @@ RigidModel model_of(const Scene& scene, sliding::LiftPlane& lift, KeptStatics& k
 
 } // namespace
 
-std::vector<RigidModel> plane_models(const Scene& scene, KeptStatics* kept)
+RigidModel plane_model(sliding::LiftPlane& lift)
 {
-    std::vector<RigidModel> models;
-    KeptStatics own;
-    KeptStatics& statics = kept ? *kept : own;
-    if (scene.lifts)
-        for (sliding::LiftPlane& lift : sliding::lift_planes(scene, {{"static"}}))
-            models.push_back(model_of(scene, lift, statics));
-    for (const Seam& seam : scene.seams) models.push_back(model_of(scene, seam, statics));
-    return models;
+    return model_of(std::move(lift.stages), lift.length, lift.mean_amplification);
+}
+
+RigidModel plane_model(sliding::SeamPlane& seam)
+{
+    RigidModel model = model_of(std::move(seam.stages), seam.model.chain.blocks[seam.model.chain.dam].length, 1.0);
+    model.one_way = !seam.of_block;
+    model.critical_friction = seam.holding_friction;
+    model.upstream = seam.upstream;
+    if (!seam.bodies.empty()) model.bodies = std::make_shared<const std::vector<sliding::SeamStage>>(seam.bodies);
+    return model;
 }
 
 std::vector<RigidModel> all_models(const Ready& ready)
@@ -90,7 +83,12 @@ std::vector<RigidModel> all_models(const Ready& ready)
     if (!ready.scene.lifts && ready.scene.seams.empty()) return models;
     Scene scene = ready.scene;
     scene.lift_joints = ready.given.lift_joints; // they replace lifts
-    for (RigidModel& model : plane_models(scene, ready.statics.get())) models.push_back(std::move(model));
+    KeptStatics own;
+    KeptStatics& statics = ready.statics ? *ready.statics : own;
+    if (scene.lifts)
+        for (sliding::LiftPlane& lift : sliding::lift_planes(scene, {{"static"}}))
+            models.push_back(model_of(scene, lift, statics));
+    for (const Seam& seam : scene.seams) models.push_back(model_of(scene, seam, statics));
     return models;
 }
 

@@ -16,17 +16,11 @@ inline constexpr const char* any_plane = "any"; ///< the one that slides furthes
 /// "base", the lifts from the bottom up, the seams.
 std::vector<std::string> plane_names(const Scene& scene);
 
-/// The model of a plane's stages. @param length  of what it slides on [m] @param amplification  of the ground's motion [-]
-/// @param one_way  it is followed downstream only
-RigidModel plane_model(sliding::SlipStages stages, double length, double amplification, bool one_way);
+/// The rigid block on a lift, whose stages it takes, and on a seam, with what that needs to slide both ways; without the vibration of the dam.
+RigidModel plane_model(sliding::LiftPlane& lift);
+RigidModel plane_model(sliding::SeamPlane& seam);
 
-/// What a seam needs to slide both ways.
-void add_bodies(const sliding::SeamPlane& plane, RigidModel& model);
-
-/// Of all planes but the base, in the order of plane_names(). @param kept  as of make_rigid_model()
-std::vector<RigidModel> plane_models(const Scene& scene, KeptStatics* kept = nullptr);
-
-/// Whatever may slide: the base, then lifts and seams.
+/// Whatever may slide: the base, then lifts and seams in the order of plane_names().
 std::vector<RigidModel> all_models(const Ready& ready);
 
 /// The rigid model of the plane that has this name. @param kept  as of make_rigid_model()

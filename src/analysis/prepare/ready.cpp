@@ -1,9 +1,8 @@
 #include "analysis/prepare/ready.hpp"
 
+#include "analysis/prepare/fe_joints.hpp"
 #include "analysis/prepare/flexible_mass.hpp"
-#include "analysis/prepare/lift_joints.hpp"
 #include "analysis/prepare/reducible.hpp"
-#include "analysis/prepare/seam_body.hpp"
 #include "core/file.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "fe2d/time/modal_run.hpp"
@@ -129,8 +128,8 @@ std::vector<sliding::Equilibrium> Ready::combinations() const
     sliding::PeakGround peak;
     for (const RecordPair& pair : records()) {
         const GroundMotion shaking = motion(pair);
-        for (const double a : shaking.accel_h) peak.a_h = std::max(peak.a_h, std::abs(a));
-        for (const double a : shaking.accel_v) peak.a_v = std::max(peak.a_v, std::abs(a));
+        peak.a_h = std::max(peak.a_h, peak_of(shaking.accel_h));
+        peak.a_v = std::max(peak.a_v, peak_of(shaking.accel_v));
     }
     return sliding::evaluate_combinations(scene, peak, seepage->profile_of(scene));
 }

@@ -6,11 +6,13 @@
 #include "core/text.hpp"
 #include "records/generate/seed_list.hpp"
 #include "records/read/read_record.hpp"
+#include "records/read/record_text.hpp"
 #include "scene/read.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glob.h>
 #include <map>
 #include <optional>
@@ -27,16 +29,6 @@ std::string in_capitals(std::string text)
     for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     return text;
 }
-
-std::string in_small_letters(std::string_view text)
-{
-    std::string small(text);
-    for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return small;
-}
-
-constexpr const char* columns_of_a_list =
-    "horizontal, vertical, other_horizontal, column, vertical_column, event, weight, magnitude, scale";
 
 bool is_digit(char c)
 {
@@ -73,7 +65,7 @@ std::vector<NamePart> parts_of(std::string_view stem)
     std::vector<NamePart> parts;
     for (std::size_t at = 0; (at = stem.find_first_not_of(separators, at)) != std::string_view::npos;) {
         const std::size_t end = std::min(stem.find_first_of(separators, at), stem.size());
-        parts.push_back({at, end, in_small_letters(stem.substr(at, end - at))});
+        parts.push_back({at, end, records::lower(stem.substr(at, end - at))});
         at = end;
         if (parts.size() < 2) continue;
         const NamePart& before = parts[parts.size() - 2];
@@ -166,7 +158,7 @@ std::optional<Station> station_in(const Survey& survey)
 /// The reading of the name that agrees with the header's component: "140" of the header is no other part of "E06140".
 std::optional<ComponentName> name_with(const std::filesystem::path& file, const std::string& component)
 {
-    std::string word = in_small_letters(component.substr(0, component.find(' ')));
+    std::string word = records::lower(component.substr(0, component.find(' ')));
     std::erase_if(word, [](char c) { return c == '-'; });
     if (word.empty()) return std::nullopt;
     if (word.size() < 3 && std::all_of(word.begin(), word.end(), is_digit)) word.insert(0, 3 - word.size(), '0');
@@ -175,7 +167,7 @@ std::optional<ComponentName> name_with(const std::filesystem::path& file, const 
     for (auto part = parts.rbegin(); part != parts.rend(); ++part)
         if (part->word == word)
             return ComponentName{records::component_in(component), without_part(stem, part->begin, part->end)};
-    if (word.size() > 1 && stem.size() > word.size() && in_small_letters(stem).ends_with(word))
+    if (word.size() > 1 && stem.size() > word.size() && records::lower(stem).ends_with(word))
         return ComponentName{records::component_in(component),
                              without_part(stem, stem.size() - word.size(), stem.size())};
     return std::nullopt;
@@ -356,6 +348,7 @@ RecordList records_of_list(const std::filesystem::path& list, const std::string&
     static const std::vector<std::string> known = {"horizontal", "vertical",        "other_horizontal",
                                                    "column",     "vertical_column", "event",
                                                    "weight",     "magnitude",       "scale"};
+    const std::string known_columns = fmt::format("{}", fmt::join(known, ", "));
     const auto refused = [&](int line, const std::string& problem, const std::string& expected) {
         return InputError(Diagnostic{list.string(), line, 0, problem, expected, "correct this line"});
     };
@@ -365,9 +358,9 @@ RecordList records_of_list(const std::filesystem::path& list, const std::string&
     const std::vector<std::string>& columns = table.heading.cells;
     for (const std::string& column : columns)
         if (std::find(known.begin(), known.end(), column) == known.end())
-            throw refused(table.heading.number, fmt::format("unknown column \"{}\".", column), columns_of_a_list);
+            throw refused(table.heading.number, fmt::format("unknown column \"{}\".", column), known_columns);
     if (std::find(columns.begin(), columns.end(), "horizontal") == columns.end())
-        throw refused(table.heading.number, "there is no column horizontal.", columns_of_a_list);
+        throw refused(table.heading.number, "there is no column horizontal.", known_columns);
     for (const auto& [number, cells] : table.rows) {
         RecordFiles record;
         std::string event;
@@ -423,7 +416,7 @@ std::vector<ComponentName> component_names(const std::filesystem::path& file)
 {
     const std::string stem = file.stem().string();
     const std::size_t size = stem.size();
-    std::string extension = in_small_letters(file.extension().string());
+    std::string extension = records::lower(file.extension().string());
     if (!extension.empty()) extension.erase(0, 1);
     std::vector<ComponentName> names;
     const bool letter = extension.size() == 1 && std::string_view("nezu").find(extension) != std::string_view::npos;
@@ -437,7 +430,7 @@ std::vector<ComponentName> component_names(const std::filesystem::path& file)
         names.push_back({Component::horizontal, without_part(stem, size - 3, size)});
     if (size > 3 && is_digit(stem[size - 3])) // a station's number, then the direction
         for (const char* word : {"ns", "ew", "ud", "up", "dn"})
-            if (in_small_letters(stem.substr(size - 2)) == word)
+            if (records::lower(stem.substr(size - 2)) == word)
                 names.push_back({records::component_in_part(word), without_part(stem, size - 2, size)});
     const std::vector<NamePart> parts = parts_of(stem);
     std::vector<ComponentName> weak;
@@ -456,18 +449,12 @@ std::vector<ComponentName> component_names(const std::filesystem::path& file)
         weak.push_back({Component::horizontal, without_part(stem, size - 3, size)});
     for (const std::string_view word :
          {"vert", "dwn", "ver", "up", "ud", "dn", "ns", "ew", "n", "e", "z", "v", "h", "x", "y"})
-        if (size > word.size() && in_small_letters(stem).ends_with(word))
+        if (size > word.size() && records::lower(stem).ends_with(word))
             weak.push_back({records::component_in_part(word), without_part(stem, size - word.size(), size)});
     for (ComponentName& name : weak) name.alone = false;
     names.insert(names.end(), weak.begin(), weak.end());
     names.push_back({Component::none, stem});
     return names;
-}
-
-ComponentName component_of_name(const std::filesystem::path& file)
-{
-    const std::vector<ComponentName> names = component_names(file);
-    return *std::find_if(names.begin(), names.end(), [](const ComponentName& name) { return name.alone; });
 }
 
 namespace {

@@ -21,9 +21,6 @@ struct ComponentName {
 /// ("ELC180"; with `alone` false after digits, "E06140"), as the extension (K-NET: .EW, .UD2), or (`alone` false) stuck to the end.
 std::vector<ComponentName> component_names(const std::filesystem::path& file);
 
-/// The likeliest of them that stands alone.
-ComponentName component_of_name(const std::filesystem::path& file);
-
 /// Records of a folder, a pattern or a list, their components paired.
 struct RecordList {
     std::vector<RecordFiles> records;

@@ -16,11 +16,10 @@ constexpr double largest_accel = 1e4; ///< [m/s2], a thousand times gravity
 
 [[noreturn]] void refuse_scale(const RecordPair& pair, double factor)
 {
-    throw InputError(
-        Diagnostic{pair.files.horizontal.string(), 0, 0,
-                   fmt::format("scaled by {:g} the record has accelerations above {:g} m/s2.", factor, largest_accel),
-                   fmt::format("at most {:g} m/s2 after --scale, motion.scale and motion.record.scale", largest_accel),
-                   "lessen the factors; 0.1 to 10 is usual"});
+    refuse(pair.files.horizontal,
+           fmt::format("scaled by {:g} the record has accelerations above {:g} m/s2.", factor, largest_accel),
+           fmt::format("at most {:g} m/s2 after --scale, motion.scale and motion.record.scale", largest_accel),
+           "lessen the factors; 0.1 to 10 is usual");
 }
 
 bool in_sequence(const Scene& scene, const std::string& name)
@@ -73,10 +72,9 @@ double factor_to_peak(const RecordPair& sequence, double wanted)
     for (const RecordPair& part : sequence.parts)
         for (const double a : part.horizontal.acceleration) peak = std::max(peak, std::abs(part.files.scale * a));
     if (peak > 0.0) return wanted / peak;
-    throw InputError(
-        Diagnostic{sequence.files.horizontal.string(), 0, 0,
-                   fmt::format("motion.scale_to_pga = {:g} m/s2, but all records of the sequence are zero.", wanted),
-                   "a horizontal record that is not zero", "delete scale_to_pga, or check the files"});
+    refuse(sequence.files.horizontal,
+           fmt::format("motion.scale_to_pga = {:g} m/s2, but all records of the sequence are zero.", wanted),
+           "a horizontal record that is not zero", "delete scale_to_pga, or check the files");
 }
 
 } // namespace
@@ -164,6 +162,13 @@ GroundMotion ground_motion(const Scene& scene, const RecordPair& pair, double sc
     GroundMotion sequence = records::one_after_the_other(motions, scene.motion.sequence_pause);
     sequence.name = pair.files.name;
     return sequence;
+}
+
+double peak_of(std::span<const double> samples)
+{
+    double peak = 0.0;
+    for (const double a : samples) peak = std::max(peak, std::abs(a));
+    return peak;
 }
 
 } // namespace damslip

@@ -48,4 +48,7 @@ std::vector<MotionName> motion_names(const Scene& scene, const std::vector<Recor
 /// @param polarity  the sign on the horizontal component as filed, one of polarities_of()
 GroundMotion ground_motion(const Scene& scene, const RecordPair& pair, double scale = 1.0, int polarity = 1);
 
+/// Largest size of some samples; 0 of none.
+double peak_of(std::span<const double> samples);
+
 } // namespace damslip

@@ -1,5 +1,6 @@
 #include "analysis/prepare/reducible.hpp"
 
+#include "analysis/prepare/reservoir.hpp"
 #include "core/input_error.hpp"
 #include "fe2d/element/elastic.hpp"
 #include "fe2d/model/model.hpp"
@@ -149,11 +150,7 @@ namespace {
 Eigen::VectorXd pore_pressure_on(const Scene& scene, const fe2d::Model& model)
 {
     const fe2d::SeepageResult seepage = fe2d::solve_seepage_on(model.mesh, scene, scene_uplift_state(scene));
-    if (!seepage.field.solver.ok())
-        throw NotConverged(Diagnostic{scene.file.string(), 0, 0,
-                                      "the seepage below the dam could not be solved: " + text_of(seepage.field.solver.note()),
-                                      "permeabilities within some ten orders of magnitude of each other",
-                                      "check foundation.permeability_m_s and curtain.permeability_m_s"});
+    check_seepage(scene, seepage);
     return fe2d::excess_pore_pressure(seepage.field.head, seepage.unit_weight);
 }
 

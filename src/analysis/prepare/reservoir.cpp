@@ -75,13 +75,12 @@ std::optional<DamPeriod> resolve_dam_period(Scene& scene, const StopAsked& stop)
     double low = reservoir_period * (1 + 1e-6),
            high = std::max(2.0 / result.incompressible_frequency, 2 * reservoir_period);
     if (!(period_of(low) > low))
-        throw InputError(
-            Diagnostic{scene.file.string(), 0, 0,
-                       fmt::format("added_mass.period_s = \"dam\": the dam's period, {:.4g} s with incompressible "
-                                   "water, lies below the reservoir's own, 4 h/c = {:.4g} s.",
-                                   1 / result.incompressible_frequency, reservoir_period),
-                       "a dam slower than its reservoir: Westergaard's series (3-1) has no real value otherwise",
-                       "leave period_s out (incompressible water) or use reservoir.model = \"acoustic\""});
+        refuse(scene.file,
+               fmt::format("added_mass.period_s = \"dam\": the dam's period, {:.4g} s with incompressible "
+                           "water, lies below the reservoir's own, 4 h/c = {:.4g} s.",
+                           1 / result.incompressible_frequency, reservoir_period),
+               "a dam slower than its reservoir: Westergaard's series (3-1) has no real value otherwise",
+               "leave period_s out (incompressible water) or use reservoir.model = \"acoustic\"");
     while (period_of(high) > high) high *= 2;
     while (high - low > 1e-9 * high) {
         const double middle = 0.5 * (low + high);
@@ -92,6 +91,16 @@ std::optional<DamPeriod> resolve_dam_period(Scene& scene, const StopAsked& stop)
     scene.added_mass.period_of_dam = false;
     result.frequency = 1.0 / high;
     return result;
+}
+
+void check_seepage(const Scene& scene, const fe2d::SeepageResult& result)
+{
+    if (!result.field.solver.ok())
+        throw NotConverged(
+            Diagnostic{scene.file.string(), 0, 0,
+                       "the seepage below the dam could not be solved: " + text_of(result.field.solver.note()),
+                       "permeabilities within some ten orders of magnitude of each other",
+                       "check foundation.permeability_m_s and curtain.permeability_m_s"});
 }
 
 sliding::SeepageProfile SeepageSource::profile_of(const Scene& scene)
@@ -113,11 +122,7 @@ PressureProfile SeepageSource::uplift_of(const Scene& scene)
 PressureProfile SeepageSource::solve(const Scene& scene, const UpliftState& state)
 {
     const fe2d::SeepageResult result = fe2d::solve_seepage(scene, state);
-    if (!result.field.solver.ok())
-        throw NotConverged(Diagnostic{scene.file.string(), 0, 0,
-                                      "the seepage below the dam could not be solved: " + text_of(result.field.solver.note()),
-                                      "permeabilities within some ten orders of magnitude of each other",
-                                      "check foundation.permeability_m_s and curtain.permeability_m_s"});
+    check_seepage(scene, result);
     return result.profile;
 }
 

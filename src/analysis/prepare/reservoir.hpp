@@ -12,6 +12,10 @@
 #include <string>
 #include <tuple>
 
+namespace damslip::fe2d {
+struct SeepageResult; // fe2d/seepage/seepage.hpp
+} // namespace damslip::fe2d
+
 namespace damslip {
 
 /// The scene's hydrodynamic mass as the FE model takes it; empty where the reservoir is hydrostatic, acoustic or absent.
@@ -41,6 +45,9 @@ struct DamPeriod {
 /// empty, hydrostatic or acoustic one.
 /// @throws InputError where the dam is so stiff that its period lies below the reservoir's; Interrupted
 std::optional<DamPeriod> resolve_dam_period(Scene& scene, const StopAsked& stop = {});
+
+/// @throws NotConverged where the seepage below the dam has lost its accuracy
+void check_seepage(const Scene& scene, const fe2d::SeepageResult& result);
 
 /// Uplift profiles by the seepage solver for the rigid block, each state of water, curtain and drains solved once. For one scene and
 /// variants of it that differ in levels, strength and uplift model only. Safe from several threads.

@@ -1,21 +1,264 @@
 #include "analysis/prepare/rigid_model.hpp"
 
 #include "analysis/prepare/plane_model.hpp"
-#include "analysis/prepare/rigid_rests.hpp"
 #include "core/units.hpp"
 #include "records/measure/measures.hpp"
 #include "records/measure/response_spectrum.hpp"
+#include "scene/rock_wedge.hpp"
 #include "scene/section.hpp"
+#include "sliding/block/rigid_block.hpp"
+#include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <numbers>
 
 namespace damslip {
 
 namespace {
+
+Vector3 towards(double azimuth)
+{
+    return line_direction(azimuth, 0.0);
+}
+
+sliding::WedgePlane plane_of(const RockWedge& w, std::size_t i, double gravity)
+{
+    const RockPlane& p = w.planes[i];
+    const double area = wedge_area(w, i);
+    return {p.dip, p.dip_direction, area, p.friction, p.cohesion, area * wedge_water_pressure(w, i, gravity)};
+}
+
+sliding::Wedge make_wedge(const RockWedge& w, double gravity)
+{
+    sliding::Wedge wedge;
+    wedge.first = plane_of(w, 0, gravity);
+    wedge.second = plane_of(w, 1, gravity);
+    wedge.mass = w.density * wedge_volume(w);
+    wedge.gravity = gravity;
+    for (const WedgeForce& f : w.forces) wedge.force = sum(wedge.force, f.force, line_direction(f.trend, f.plunge));
+    return wedge;
+}
+
+/// Azimuth of the least yield, to 1 degree around the least of every fifth.
+double least_azimuth(const sliding::Wedge& wedge)
+{
+    const std::vector<double> coarse = yields_over_azimuth(wedge);
+    const auto middle = 5 * (std::min_element(coarse.begin(), coarse.end()) - coarse.begin());
+    double best = static_cast<double>(middle), least = std::numeric_limits<double>::infinity();
+    for (auto a = middle - 4; a <= middle + 4; ++a) {
+        const double here = wedge_yield(wedge, towards(static_cast<double>(a) * units::degree)).acceleration;
+        if (!(here < least)) continue;
+        least = here;
+        best = static_cast<double>((a + 360) % 360);
+    }
+    return best * units::degree;
+}
+
+} // namespace
+
+RigidWedge make_rigid_wedge(const Scene& scene)
+{
+    RigidWedge w;
+    w.wedge = make_wedge(*scene.wedge, scene.gravity);
+    w.still = wedge_state(w.wedge);
+    w.azimuth = scene.wedge->motion_azimuth.value_or(trend(w.still.direction));
+    w.push = towards(w.azimuth);
+    w.yields.at_rest = wedge_yield(w.wedge, w.push);
+    if (scene.wedge->cohesion_lost_at_slip && w.yields.at_rest.state.cohesion > 0.0)
+        w.yields.moving = without_cohesion(w.wedge, w.yields.at_rest);
+    return w;
+}
+
+std::vector<double> yields_over_azimuth(const sliding::Wedge& wedge)
+{
+    std::vector<double> yields;
+    for (int a = 0; a <= 360; a += 5) yields.push_back(wedge_yield(wedge, towards(a * units::degree)).acceleration);
+    return yields;
+}
+
+std::vector<WedgeYieldRow> wedge_yield_rows(const RigidWedge& w)
+{
+    const auto row = [&w](const char* motion, double azimuth) {
+        return WedgeYieldRow{motion, azimuth, wedge_yield(w.wedge, towards(azimuth))};
+    };
+    const double back = w.azimuth < std::numbers::pi ? w.azimuth + std::numbers::pi : w.azimuth - std::numbers::pi;
+    return {{"records, a_h > 0", w.azimuth, w.yields.at_rest},
+            row("records, a_h < 0", back),
+            row("least of all azimuths", least_azimuth(w.wedge)),
+            {"ground up", std::nullopt, wedge_yield(w.wedge, {0.0, 0.0, -1.0})},
+            {"ground down", std::nullopt, wedge_yield(w.wedge, {0.0, 0.0, 1.0})}};
+}
+
+double critical_first_friction(const sliding::Wedge& w, const sliding::WedgeState& state)
+{
+    if (!(w.first.friction > 0.0)) return critical_friction(state); // no share to keep: both get the same
+    const double by_friction = state.resistance - state.cohesion, missing = state.drive - state.cohesion;
+    if (state.mode == sliding::WedgeMode::lifts) return std::numeric_limits<double>::infinity();
+    if (!(missing > 0.0)) return 0.0;
+    if (!(by_friction > 0.0)) return std::numeric_limits<double>::infinity();
+    return w.first.friction * missing / by_friction;
+}
+
+std::string mode_words(const RockWedge& names, sliding::WedgeMode mode)
+{
+    switch (mode) {
+    case sliding::WedgeMode::both_planes:
+        return "both planes, along their line";
+    case sliding::WedgeMode::first_plane:
+        return names.planes[0].name + " alone";
+    case sliding::WedgeMode::second_plane:
+        return names.planes[1].name + " alone";
+    case sliding::WedgeMode::lifts:
+        return "lifts off both planes";
+    }
+    return "";
+}
+
+namespace {
+
+using sliding::BaseState;
+using sliding::RigidBlock;
+using sliding::StaticCase;
+
+/// The block with the uplift of the crack that it opens, by its friction.
+RigidBlock with_opening(const Scene& scene, const StaticCase& static_case, const BaseState& before,
+                        const sliding::SeepageProfile& seepage, RigidBlock block)
+{
+    if (!scene.uplift || scene.uplift->water.opening == OpeningWater::unchanged) return block;
+    const bool vertical =
+        scene.motion.vertical && std::any_of(scene.motion.records.begin(), scene.motion.records.end(),
+                                             [](const RecordFiles& record) { return record.vertical.has_value(); });
+    block.opening = sliding::opening_uplift(scene, static_case, before, block, vertical, seepage);
+    return block;
+}
+
+StaticCase without_drains(StaticCase static_case)
+{
+    static_case.uplift.drains = DrainState::ineffective;
+    return static_case;
+}
+
+/// The rigid block of one static state.
+struct RigidStages {
+    sliding::RigidBlock block;          ///< before any slip
+    sliding::SlipStages stages;         ///< strength and uplift over slip
+    sliding::SlipStages opening_stages; ///< the same with the uplift of the crack that each opens (uplift.opening)
+};
+
+/// @param later  with the drains lost; null: they are not @param options  its seepage alone is read here
+RigidStages rigid_stages(const Scene& scene, const StaticCase& static_case, const BaseState& before,
+                         const BaseState* later, const sliding::BlockOptions& options)
+{
+    const std::optional<double> level = static_case.loads.reservoir_level;
+    RigidStages made;
+    made.block = with_opening(scene, static_case, before, options.seepage,
+                              sliding::make_rigid_block(scene, before, level, options));
+    made.stages = sliding::strength_stages(made.block, scene.contact);
+    if (later)
+        made.stages = sliding::with_block_from(made.stages, *scene.drains->lost_at_slip,
+                                               sliding::make_rigid_block(scene, *later, level, options));
+    made.opening_stages = made.stages;
+    if (!made.block.opening) return made;
+    for (sliding::SlipStage& stage : made.opening_stages) {
+        const bool drains_lost = later && stage.block.uplift != made.block.uplift;
+        stage.block = with_opening(scene, drains_lost ? without_drains(static_case) : static_case,
+                                   drains_lost ? *later : before, options.seepage, stage.block);
+    }
+    return made;
+}
+
+class FullHeadBetween final : public sliding::RestBetweenEvents {
+public:
+    FullHeadBetween(const Scene& scene, const StaticCase& static_case, const BaseState& before, const RigidBlock& block,
+                    const sliding::BlockOptions& options)
+        : scene_(scene), static_case_(static_case), before_(before), block_(block), options_(options),
+          shaken_(static_case), water_(sliding::scene_added_mass(scene, static_case.loads.reservoir_level))
+    {
+        shaken_.crack =
+            sliding::crack_rule_while_open(scene.uplift->water.opening).value_or(CrackRule::seismic_unchanged);
+    }
+
+    double crack(sliding::SlipDirection direction, double a_h, double a_v) const override
+    {
+        const bool downstream = direction == sliding::SlipDirection::downstream;
+        const double d = sliding::sign(direction);
+        const double slides = (downstream ? yield_downstream(block_) : yield_upstream(block_)).law.at(a_v);
+        const double felt = std::min(d * a_h, slides);
+        if (!(felt > 0.0)) return 0.0;
+        sliding::Force load = before_.load;
+        for (const sliding::Load& shaking : earthquake_loads(scene_, water_, d * felt, a_v))
+            load += shaking.force.total();
+        const sliding::CrackedBase base = shaken_base(scene_, shaken_, before_, load, options_.seepage);
+        const sliding::Side opens = downstream ? sliding::Side::heel : sliding::Side::toe;
+        return base.crack.side == opens ? base.crack.length : 0.0;
+    }
+
+    Rest rest(double heel, double toe) const override
+    {
+        StaticCase now = static_case_;
+        now.opened = heel >= toe ? sliding::Crack{sliding::Side::heel, std::max(heel, before_heel())}
+                                 : sliding::Crack{sliding::Side::toe, toe};
+        now.uplift.curtain = CurtainState::damaged;
+        const BaseState state = sliding::base_state(scene_, now, options_.seepage);
+        std::optional<BaseState> later;
+        if (scene_.drains && scene_.drains->lost_at_slip)
+            later = sliding::base_state(scene_, without_drains(now), options_.seepage);
+        RigidStages on_base = rigid_stages(scene_, now, state, later ? &*later : nullptr, options_);
+        Note note{NoteKind::rest_after,
+                  {state.base.crack.length, std::string(heel >= toe ? "heel" : "toe"), state.base.uplift.force / 1e6,
+                   before_.base.uplift.force / 1e6}};
+        auto next =
+            std::make_shared<const FullHeadBetween>(scene_, now, state, on_base.opening_stages.front().block, options_);
+        return {std::move(on_base.opening_stages), std::move(note), std::move(next)};
+    }
+
+private:
+    double before_heel() const
+    {
+        return before_.base.crack.side == sliding::Side::heel ? before_.base.crack.length : 0.0;
+    }
+
+    Scene scene_;
+    StaticCase static_case_;
+    BaseState before_;
+    RigidBlock block_;
+    sliding::BlockOptions options_;
+    StaticCase shaken_;
+    sliding::AddedMassIntegral water_;
+};
+
+/// Between the records of a sequence with uplift.after = "full": full head on what has cracked so far, curtain ruptured, drains
+/// without effect where the crack has reached them. Of cracks from both ends the longer one holds water.
+/// @returns null without a sequence, or where uplift.after leaves the water as it was
+std::shared_ptr<const sliding::RestBetweenEvents> rests_of(const Scene& scene, const StaticCase& static_case,
+                                                           const BaseState& before, const RigidBlock& block,
+                                                           const sliding::BlockOptions& options)
+{
+    if (scene.motion.sequence.empty() || !scene.uplift || scene.uplift->model == UpliftModel::none ||
+        scene.uplift->water.after != WaterAfter::full)
+        return nullptr;
+    return std::make_shared<const FullHeadBetween>(scene, static_case, before, block, options);
+}
+
+/// How long the plane or line is that it slides on [m]; none where the scene gives no surfaces, or it lifts.
+std::optional<double> sliding_length(const RockWedge& wedge, sliding::WedgeMode mode)
+{
+    switch (mode) {
+    case sliding::WedgeMode::both_planes:
+        return line_length(wedge);
+    case sliding::WedgeMode::first_plane:
+        return plane_length(wedge, 0);
+    case sliding::WedgeMode::second_plane:
+        return plane_length(wedge, 1);
+    case sliding::WedgeMode::lifts:
+        break;
+    }
+    return std::nullopt;
+}
 
 RigidModel make_wedge_model(const Scene& scene)
 {

@@ -1,6 +1,5 @@
-#include "analysis/screen/needed.hpp"
+#include "analysis/screen/screening.hpp"
 
-#include "analysis/prepare/rigid_model.hpp"
 #include "core/parallel.hpp"
 #include "core/status.hpp"
 #include "scene/scene_text.hpp"
@@ -103,8 +102,10 @@ void find_peak(const GroundMotion& motion, NeededRow& row)
     }
 }
 
-} // namespace
-
+/// Least friction from which on the rigid block's largest slip stays at or below `slip`: all frictions above it that were
+/// looked at do. Looked at 33 values between the friction that stands and `highest_friction`, the last crossing by bisection
+/// to 1e-7. A slip without an end (runs away, still sliding) is more than any. @returns nothing where even the highest slips more
+/// @param slip  largest slip allowed [m], >= 0
 std::optional<double> friction_for_slip(const Ready& ready, const sliding::SkippingMotion& motion, int polarity,
                                         double slip)
 {
@@ -131,6 +132,8 @@ std::optional<double> friction_for_slip(const Ready& ready, const sliding::Skipp
     }
     return holds;
 }
+
+} // namespace
 
 std::vector<NeededRow> needed_rows(const Ready& ready, int jobs)
 {

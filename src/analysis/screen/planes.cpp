@@ -84,15 +84,6 @@ std::optional<double> finite(double x)
     return std::isfinite(x) ? std::optional(x) : std::nullopt;
 }
 
-PlaneRow plane_row(PlaneKind kind, const std::string& name, std::size_t place)
-{
-    PlaneRow row;
-    row.kind = kind;
-    row.name = name;
-    row.place = place;
-    return row;
-}
-
 /// A plane to slide on, beside its row.
 struct Sliding {
     PlaneRow row;
@@ -101,8 +92,7 @@ struct Sliding {
 
 Sliding of_lift(sliding::LiftPlane& lift, std::size_t place)
 {
-    Sliding s{plane_row(PlaneKind::lift, lift.name, place),
-              plane_model(std::move(lift.stages), lift.length, lift.mean_amplification, false)};
+    Sliding s{{.kind = PlaneKind::lift, .name = lift.name, .place = place}, plane_model(lift)};
     for (const sliding::LiftState& state : lift.states) s.row.factors.push_back(finite(state.factor));
     s.row.yield = lift.yield_of_ground;
     s.row.amplification = lift.mean_amplification;
@@ -113,11 +103,8 @@ Sliding of_lift(sliding::LiftPlane& lift, std::size_t place)
 
 Sliding of_seam(sliding::SeamPlane& seam, std::size_t place)
 {
-    const sliding::Chain& chain = seam.model.chain;
-    Sliding s{plane_row(PlaneKind::seam, seam.name, place),
-              plane_model(std::move(seam.stages), chain.blocks[chain.dam].length, 1.0, !seam.of_block)};
+    Sliding s{{.kind = PlaneKind::seam, .name = seam.name, .place = place}, plane_model(seam)};
     for (const sliding::SeamFactor& factor : seam.factors) s.row.factors.push_back(finite(factor.factor));
-    add_bodies(seam, s.model);
     s.row.angle = seam.angle;
     s.row.angle_factor = seam.factors.back().angle;
     s.row.yield = seam.yield;
@@ -131,10 +118,7 @@ double joint_peak(const sliding::LiftPlane& lift, const RigidModel& model, const
 {
     if (!model.tied)
         return lift.joint_amplification * std::max(motion.whole().h_max, -motion.whole().h_min);
-    double peak = 0.0;
-    for (const double a : sliding::joint_motions(motion.motion(), *model.tied, 4, 0.0).joint.accel_h)
-        peak = std::max(peak, std::abs(a));
-    return peak;
+    return peak_of(sliding::joint_motions(motion.motion(), *model.tied, 4, 0.0).joint.accel_h);
 }
 
 bool stands(sliding::ChainStatus status)
@@ -321,7 +305,7 @@ Planes find_planes(const Ready& ready, const std::vector<sliding::Equilibrium>& 
     std::vector<sliding::GroundState> grounds;
     for (const PlaneState& state : planes.states) grounds.push_back(state.ground);
 
-    PlaneRow of_base = plane_row(PlaneKind::base, base_plane, 0);
+    PlaneRow of_base{.kind = PlaneKind::base, .name = base_plane};
     for (const PlaneState& state : planes.states) of_base.factors.push_back(state.of_base);
     of_base.yield = base.downstream.law.constant;
     of_base.slip_factor = base.downstream.factor;

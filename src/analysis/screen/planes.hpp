@@ -39,13 +39,14 @@ struct PlaneRow {
     PlaneKind kind = PlaneKind::base;
     std::string name;
     std::size_t place = 0;                      ///< among Planes::lifts or Planes::seams
-    std::optional<double> angle, angle_factor;  ///< α of the wedge: at the least a_y, at the least factor [rad]
-    std::vector<std::optional<double>> factors; ///< of each state [-]; none: not known, or nothing drives it
+    std::optional<double> angle = {},
+                          angle_factor = {};         ///< α of the wedge: at the least a_y, at the least factor [rad]
+    std::vector<std::optional<double>> factors = {}; ///< of each state [-]; none: not known, or nothing drives it
     double yield = 0.0;                         ///< a_y of the ground [m/s^2]
     double amplification = 1.0;                 ///< mean acceleration of the mass over the ground's [-]
-    std::optional<double> joint_peak;           ///< of a lift: largest acceleration at the joint, horizontal [m/s^2]
+    std::optional<double> joint_peak = {};      ///< of a lift: largest acceleration at the joint, horizontal [m/s^2]
     double slip_factor = 1.0;                   ///< acceleration of the slip over the ground's above a_y [-]
-    std::vector<PlaneSlip> slips;               ///< record after record, both polarities
+    std::vector<PlaneSlip> slips = {};          ///< record after record, both polarities
     bool stands = true;                         ///< its blocks press on each other and on the plane at the yield
 
     /// The slip that decides; null: no records.

@@ -21,9 +21,8 @@ std::vector<sliding::RegressionWeight> regression_weights(const Scene& scene)
             std::string ids;
             for (const sliding::Regression& r : sliding::regressions())
                 ids += (ids.empty() ? "" : ", ") + std::string(r.id);
-            throw InputError(Diagnostic{scene.file.string(), 0, 0,
-                                        fmt::format("regressions.weight.model = \"{}\" is not known.", key.model), ids,
-                                        "write one of these"});
+            refuse(scene.file, fmt::format("regressions.weight.model = \"{}\" is not known.", key.model), ids,
+                   "write one of these");
         }
         weights.push_back({key.model, key.weight});
     }
@@ -136,8 +135,7 @@ GivenYieldRow given_yield_run(const GivenYieldBlock& block, const sliding::SlipS
     GivenYieldRow row;
     row.record = motion.name;
     row.method = method;
-    for (const double a : motion.accel_h) row.pga = std::max(row.pga, std::abs(a));
-    row.largest_acceleration = row.pga;
+    row.pga = row.largest_acceleration = peak_of(motion.accel_h);
     if (method != "rigid") {
         row.mode = block.flexible;
         if (block.column) {

@@ -1,5 +1,6 @@
 #include "analysis/screen/screening.hpp"
 
+#include "analysis/fe/contact_runs.hpp"
 #include "analysis/prepare/reservoir.hpp"
 #include "analysis/screen/regression_rows.hpp"
 #include "core/input_error.hpp"
@@ -13,17 +14,44 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <numeric>
 
 namespace damslip {
 
+Verdict ElasticScreening::verdict(const std::optional<double>& allowable) const
+{
+    const Verdict verdict = runs.empty() ? Verdict::undecided : verdict_of(runs, allowable);
+    return verdict == Verdict::pass && !why_not.empty() ? Verdict::undecided : verdict;
+}
+
 namespace {
 
-double peak(const std::vector<double>& a)
+ElasticScreening screen_elastic(const Ready& ready, int jobs, Watch& watch)
 {
-    double p = 0.0;
-    for (const double x : a) p = std::max(p, std::abs(x));
-    return p;
+    ElasticScreening out;
+    if (const auto why_not = why_not_reducible(ready.given)) {
+        out.why_not = why_not->problem;
+        return out;
+    }
+    Scene given = ready.given;
+    given.time.substeps.reset();
+    given.time.slip_tolerance = std::numeric_limits<double>::infinity(); // one halving, for the error estimate
+    try {
+        const Ready elastic = prepare(std::move(given), Method::finite_elements, ready.pairs,
+                                      {.seepage = ready.seepage, .stop = watch.stop()});
+        ContactRuns all(elastic, {.mesh_error = false, .reduced = true, .jobs = jobs}, watch);
+        out.why_not = text_of(all.why_not());
+        if (!out.why_not.empty()) return out;
+        out.runs = all.run([](ContactRun& run, const GroundMotion&) { run.fe.history = {}; });
+        if (out.runs.size() < all.whole())
+            out.why_not = fmt::format("Stopped after {} of {} runs.", out.runs.size(), all.whole());
+    } catch (const InputError& error) {
+        out.why_not = error.diagnostics().front().problem;
+    } catch (const NotConverged& error) {
+        out.why_not = error.diagnostic().problem;
+    }
+    return out;
 }
 
 void set_status(SlipRow& row, Status status)
@@ -81,8 +109,8 @@ std::vector<SlipRow> slip_rows(const RowsOf& of, const std::vector<RecordPair>& 
             SlipRow row;
             row.record = motions.back().name;
             row.polarity = polarity;
-            row.pga = peak(motions.back().accel_h);
-            row.vertical_pga = peak(motions.back().accel_v);
+            row.pga = peak_of(motions.back().accel_h);
+            row.vertical_pga = peak_of(motions.back().accel_v);
             rows.push_back(std::move(row));
         }
     }

@@ -1,13 +1,13 @@
 #pragma once
 
+#include "analysis/fe/contact_runs.hpp"
 #include "analysis/prepare/flexible_mass.hpp"
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/rigid_model.hpp"
-#include "analysis/screen/elastic.hpp"
-#include "analysis/screen/needed.hpp"
 #include "analysis/screen/planes.hpp"
 #include "analysis/screen/regression_rows.hpp"
 #include "core/status.hpp"
+#include "core/watch.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 #include "sliding/equilibrium/limit_equilibrium.hpp"
 #include "sliding/flexible/flexible_mode.hpp"
@@ -19,6 +19,16 @@
 
 /// What `screen` computes, as data; pages/screen shows it.
 namespace damslip {
+
+/// The elastic dam in a screening, for the rigid block is no upper bound of its slip: by reduced finite elements. The steps are half the record's; the error estimate holds what they and the modes leave
+/// out, and nothing of the mesh.
+struct ElasticScreening {
+    std::vector<ContactRun> runs; ///< records x polarities, without histories
+    std::string why_not;          ///< one sentence: why runs are missing; empty: none is
+
+    /// Of the worst run; no PASS where runs are missing.
+    Verdict verdict(const std::optional<double>& allowable) const;
+};
 
 /// The base with its uplift: as the scene gives it, and a second time with a crack where the scene asks for none.
 struct BaseRow {
@@ -67,6 +77,23 @@ struct SlipRow {
     /// The slip to judge by.
     const sliding::SlideResult& judged() const { return governing().slide; }
 };
+
+/// What it takes for the slip to stay within the allowable one, of one record with one polarity.
+struct NeededRow {
+    std::string record;
+    int polarity = 1;
+    double peak = 0.0;      ///< k_max g: largest acceleration that drives it downstream [m/s^2]
+    double peak_time = 0.0; ///< of the first such sample [s]
+    std::optional<double>
+        yield; ///< one-way block, horizontal motion: a_y that slips the allowable (yield_for_slip) [m/s^2]
+    std::optional<double>
+        friction; ///< of the rigid block, with the vertical component where there is one; the least from which on it holds
+};
+inline constexpr double highest_friction = 3.0; ///< of the search for it [-]: 72 degrees, more than any joint's
+
+/// Of all records and both polarities. Empty without criteria.allowable_slip, for a wedge and for friction over the slip: they
+/// have no single friction or no sense up the slope. @param jobs  threads, 0: all cores
+std::vector<NeededRow> needed_rows(const Ready& ready, int jobs);
 
 /// Over the records, each with the worse polarity. Records whose worse polarity has no slip are counted by their status.
 struct SetStatistics {
@@ -160,7 +187,8 @@ Screening run_screening(const Ready& ready, int jobs = 0,
                         FlexibleRuns flexible = FlexibleRuns::as_the_scene_says);
 
 /// Runs the elastic dam beside the rigid block where there is one to run: no wedge, no rock slope, records, and a block that
-/// stands before the earthquake. @param ready  that `screening` was made of @throws Interrupted
+/// stands before the earthquake. What cannot be run is said in `why_not`, never thrown.
+/// @param ready  that `screening` was made of, for the rigid block; its records are used again @throws Interrupted
 void add_elastic_dam(const Ready& ready, int jobs, Watch& watch, Screening& screening);
 
 /// The resultant of the static loads acts outside the base: it tips without any earthquake.

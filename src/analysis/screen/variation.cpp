@@ -14,12 +14,11 @@ namespace damslip {
 
 namespace {
 
-constexpr int steps = 41;
-
-std::vector<double> spaced(double low, double high)
+/// `count` values from `low` to `high`.
+std::vector<double> spaced(double low, double high, int count = 41)
 {
     std::vector<double> x;
-    for (int i = 0; i < steps; ++i) x.push_back(low + (high - low) * i / (steps - 1));
+    for (int i = 0; i < count; ++i) x.push_back(low + (high - low) * i / (count - 1));
     return x;
 }
 
@@ -46,12 +45,10 @@ std::vector<std::pair<std::string, Scene>> uplift_variants(const Scene& given, c
 /// Around the scene's friction, from where the block stands by itself on.
 std::vector<double> friction_values(const RigidModel& own)
 {
-    constexpr int n = 25;
     const double mu = own.block.friction;
     const double stands = std::isfinite(own.critical_friction) ? 1.002 * own.critical_friction : 0.0;
     const double low = std::max(0.7 * mu, stands), high = std::max(1.35 * mu, 1.5 * stands);
-    std::vector<double> values;
-    for (int i = 0; i < n; ++i) values.push_back(low + (high - low) * i / (n - 1));
+    std::vector<double> values = spaced(low, high, 25);
     if (mu > low && mu < high) values.insert(std::upper_bound(values.begin(), values.end(), mu), mu);
     return values;
 }

@@ -212,31 +212,52 @@ std::vector<ModeShare> mode_shares(const UnitResponses& unit, const ModalForces&
     return shares;
 }
 
-void add_base(const UnitResponses& unit, const Combining& combining, double mass, double gravity, SpectrumDemand& row)
-{
-    const Plane& plane = unit.planes.front();
-    const auto base = [&](auto value) { return modal_values(unit, combining, 0, value); };
-    const Eigen::VectorXd along = base([](const Resultant& r) { return r.along; });
-    row.shear = combining.peak(along);
-    row.shear_srss = fe2d::combined_peak(along, combining.srss);
-    row.moment = combining.peak(base([](const Resultant& r) { return r.moment; }));
-    const Eigen::VectorXd down = base([](const Resultant& r) { return -r.across; });
-    if (row.shear > 0.0) row.normal_with_shear = fe2d::combined_product(down, along, combining.cqc) / row.shear;
-    row.heel_stress = combining.peak(base([&](const Resultant& r) { return edge_stress(r, plane, -1.0); }));
-    row.toe_stress = combining.peak(base([&](const Resultant& r) { return edge_stress(r, plane, 1.0); }));
-    row.crest = combining.peak(unit.crest.cwiseProduct(combining.scale));
-    row.coefficient = row.shear / (mass * gravity);
-    for (std::size_t k = 0; k < unit.planes.size(); ++k) row.levels.push_back(level_force(unit, combining, k));
-    for (std::size_t k = 0; k < row.levels.size(); ++k)
-        row.levels[k].lateral = row.levels[k].shear - (k + 1 < row.levels.size() ? row.levels[k + 1].shear : 0.0);
-}
-
 /// What moves a joint, of one component of the earthquake: mean squares of T and N', and of what both share.
 struct SlidingMoments {
     double tt = 0.0, tn = 0.0, nn = 0.0; ///< T downstream, N' compression [N^2/m^2]
 
     SlidingMoments operator+(const SlidingMoments& b) const { return {tt + b.tt, tn + b.tn, nn + b.nn}; }
 };
+
+/// One component on its own.
+struct ComponentPeaks {
+    double shear = 0.0, normal = 0.0, moment = 0.0, heel = 0.0, toe = 0.0, about_toe = 0.0;
+    SlidingMoments sliding;
+};
+
+ComponentPeaks component_peaks(const UnitResponses& unit, const Combining& combining)
+{
+    const Plane& plane = unit.planes.front();
+    const auto base = [&](auto value) { return modal_values(unit, combining, 0, value); };
+    const Eigen::VectorXd along = base([](const Resultant& r) { return r.along; });
+    const Eigen::VectorXd down = base([](const Resultant& r) { return -r.across; });
+    ComponentPeaks p;
+    p.shear = combining.peak(along);
+    p.normal = combining.peak(down);
+    p.moment = combining.peak(base([](const Resultant& r) { return r.moment; }));
+    p.heel = combining.peak(base([&](const Resultant& r) { return edge_stress(r, plane, -1.0); }));
+    p.toe = combining.peak(base([&](const Resultant& r) { return edge_stress(r, plane, 1.0); }));
+    p.about_toe = combining.peak(base([&](const Resultant& r) { return r.moment - 0.5 * plane.length * r.across; }));
+    p.sliding = {p.shear * p.shear, fe2d::combined_product(down, along, combining.cqc), p.normal * p.normal};
+    return p;
+}
+
+void add_base(const UnitResponses& unit, const Combining& combining, const ComponentPeaks& peaks, double mass,
+              double gravity, SpectrumDemand& row)
+{
+    row.shear = peaks.shear;
+    row.shear_srss = fe2d::combined_peak(modal_values(unit, combining, 0, [](const Resultant& r) { return r.along; }),
+                                         combining.srss);
+    row.moment = peaks.moment;
+    if (row.shear > 0.0) row.normal_with_shear = peaks.sliding.tn / row.shear;
+    row.heel_stress = peaks.heel;
+    row.toe_stress = peaks.toe;
+    row.crest = combining.peak(unit.crest.cwiseProduct(combining.scale));
+    row.coefficient = row.shear / (mass * gravity);
+    for (std::size_t k = 0; k < unit.planes.size(); ++k) row.levels.push_back(level_force(unit, combining, k));
+    for (std::size_t k = 0; k < row.levels.size(); ++k)
+        row.levels[k].lateral = row.levels[k].shear - (k + 1 < row.levels.size() ? row.levels[k + 1].shear : 0.0);
+}
 
 /// The static joint: strength at no earthquake and what drives it.
 struct Joint {
@@ -263,29 +284,6 @@ struct Joint {
         return below > 0.0 ? c / below : std::numeric_limits<double>::infinity();
     }
 };
-
-/// One component on its own.
-struct ComponentPeaks {
-    double shear = 0.0, normal = 0.0, moment = 0.0, heel = 0.0, toe = 0.0, about_toe = 0.0;
-    SlidingMoments sliding;
-};
-
-ComponentPeaks component_peaks(const UnitResponses& unit, const Combining& combining)
-{
-    const Plane& plane = unit.planes.front();
-    const auto base = [&](auto value) { return modal_values(unit, combining, 0, value); };
-    const Eigen::VectorXd along = base([](const Resultant& r) { return r.along; });
-    const Eigen::VectorXd down = base([](const Resultant& r) { return -r.across; });
-    ComponentPeaks p;
-    p.shear = combining.peak(along);
-    p.normal = combining.peak(down);
-    p.moment = combining.peak(base([](const Resultant& r) { return r.moment; }));
-    p.heel = combining.peak(base([&](const Resultant& r) { return edge_stress(r, plane, -1.0); }));
-    p.toe = combining.peak(base([&](const Resultant& r) { return edge_stress(r, plane, 1.0); }));
-    p.about_toe = combining.peak(base([&](const Resultant& r) { return r.moment - 0.5 * plane.length * r.across; }));
-    p.sliding = {p.shear * p.shear, fe2d::combined_product(down, along, combining.cqc), p.normal * p.normal};
-    return p;
-}
 
 constexpr double percent_rule = 0.3; ///< of the other component
 
@@ -324,12 +322,9 @@ std::vector<ComponentDemand> component_demands(const ComponentPeaks& h, const Co
     return rows;
 }
 
-void add_factors(const UnitResponses& unit, const Combining& combining, const sliding::Equilibrium& e,
-                 const ToeMoments& still, const SpectrumLevel& level, SpectrumDemand& row)
+void add_factors(const sliding::Equilibrium& e, const ToeMoments& still, const SpectrumLevel& level, double about_toe,
+                 SpectrumDemand& row)
 {
-    const double half = 0.5 * unit.planes.front().length;
-    const double about_toe = combining.peak(
-        modal_values(unit, combining, 0, [&](const Resultant& r) { return r.moment - half * r.across; }));
     const double normal = std::max(0.0, e.base.effective_normal + row.normal_with_shear);
     row.heel_least = level.static_heel - row.heel_stress;
     row.heel_most = level.static_heel + row.heel_stress;
@@ -375,9 +370,7 @@ std::function<double(double)> spectrum_of_samples(const std::vector<double>& sam
         const std::vector<double> one{period};
         return records::response_spectrum(samples, dt, one, ratio).points.front().pseudo_acceleration;
     };
-    double pga = 0.0;
-    for (const double a : samples) pga = std::max(pga, std::abs(a));
-    return [acceleration, pga](double period) { return period > 0.0 ? acceleration(period) : pga; };
+    return [acceleration, pga = peak_of(samples)](double period) { return period > 0.0 ? acceleration(period) : pga; };
 }
 
 /// The vertical component, and both together, of the spectra that have one. @param s  its rows are there
@@ -410,6 +403,9 @@ LevelSpectrum spectrum_of(const std::string& name, const GroundMotion& motion, d
     return spectrum;
 }
 
+namespace {
+
+/// The spectra of a scene's records at the scene's damping, 5 % where it damps not at all.
 std::vector<LevelSpectrum> record_spectra(const Ready& ready)
 {
     const double ratio = ready.scene.damping.ratio > 0.0 ? ready.scene.damping.ratio : 0.05;
@@ -418,6 +414,8 @@ std::vector<LevelSpectrum> record_spectra(const Ready& ready)
         spectra.push_back(spectrum_of(pair.files.name, ready.motion(pair), ratio));
     return spectra;
 }
+
+} // namespace
 
 SpectrumLevel spectrum_level(const Ready& ready, const std::vector<LevelSpectrum>& given)
 {
@@ -441,8 +439,9 @@ SpectrumLevel spectrum_level(const Ready& ready, const std::vector<LevelSpectrum
         row.pga = spectrum.acceleration(0.0);
         row.modes = mode_shares(unit, forces, combining, &Resultant::along);
         row.residual_mass = forces.residual_mass;
-        add_base(unit, combining, s.total_mass, ready.scene.gravity, row);
-        add_factors(unit, combining, e, still, s, row);
+        const ComponentPeaks peaks = component_peaks(unit, combining);
+        add_base(unit, combining, peaks, s.total_mass, ready.scene.gravity, row);
+        add_factors(e, still, s, peaks.about_toe, row);
         s.rows.push_back(std::move(row));
     }
     const bool vertical =

@@ -101,9 +101,6 @@ struct SpectrumLevel {
 /// @throws InputError, NotConverged, Interrupted
 SpectrumLevel spectrum_level(const Ready& ready, const std::vector<LevelSpectrum>& given = {});
 
-/// The spectra of a scene's records at the scene's damping, 5 % where it damps not at all.
-std::vector<LevelSpectrum> record_spectra(const Ready& ready);
-
 /// Those of modes found. @param modes  with shapes @throws NotConverged where modes or the static pressure were not found
 ModalForces modal_forces(const ModesResult& modes, ModalDirection direction = ModalDirection::horizontal);
 

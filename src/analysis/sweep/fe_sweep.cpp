@@ -1,9 +1,8 @@
 #include "analysis/sweep/fe_sweep.hpp"
 
-#include "analysis/fe/contact_run.hpp"
 #include "analysis/fe/contact_runs.hpp"
+#include "analysis/prepare/fe_joints.hpp"
 #include "analysis/prepare/reducible.hpp"
-#include "analysis/prepare/seam_body.hpp"
 #include "analysis/sweep/sweep_grid.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
@@ -255,6 +254,51 @@ void check_fe_scenes(const Sweep& in)
             const EffectPlan plan = make_effect_plan(scene, Method::finite_elements);
             if (in.axes.method[method].reduced) check_reducible(called_for(plan, scene));
         }
+}
+
+std::vector<FeGroup> fe_groups(const TaskList& tasks, const Axes& axes, const std::vector<std::size_t>& rows,
+                               std::size_t parts)
+{
+    std::map<std::tuple<std::size_t, std::size_t, std::size_t>, FeGroup> found; // by variant, method, motion
+    for (const std::size_t id : rows) { // ascending ids: ascending frictions within a group
+        const GridIndex at = tasks.index(id);
+        if (axes.method[at.method].kind != SweepKind::finite_elements) continue;
+        FeGroup& group = found[{tasks.variant(at), at.method, tasks.motion(at)}];
+        group.variant = tasks.variant(at);
+        group.method = at.method;
+        group.motion = tasks.motion(at);
+        group.rows.push_back(id);
+    }
+    const std::size_t shares = found.empty() ? 1 : (parts + found.size() - 1) / found.size();
+    std::vector<FeGroup> groups;
+    for (const auto& [key, group] : found) {
+        const std::size_t here = std::min(std::max<std::size_t>(1, shares), group.rows.size());
+        for (std::size_t share = 0; share < here; ++share) { // every here-th friction: low ones fail at once
+            FeGroup part{group.variant, group.motion, group.method, {}};
+            for (std::size_t k = share; k < group.rows.size(); k += here) part.rows.push_back(group.rows[k]);
+            groups.push_back(std::move(part));
+        }
+    }
+    return groups;
+}
+
+std::vector<FeGroup> with_stopped_in_pieces(std::vector<FeGroup> groups, const std::map<std::size_t, int>& stopped)
+{
+    if (stopped.empty()) return groups;
+    std::vector<FeGroup> pieces;
+    for (const FeGroup& group : groups) {
+        int times = 0;
+        for (const std::size_t id : group.rows)
+            if (const auto found = stopped.find(id); found != stopped.end()) times = std::max(times, found->second);
+        const std::size_t length = std::max<std::size_t>(1, times < 32 ? group.rows.size() >> times : 0);
+        for (std::size_t first = 0; first < group.rows.size(); first += length) {
+            FeGroup piece{group.variant, group.motion, group.method, {}, times > 0};
+            for (std::size_t k = first; k < std::min(group.rows.size(), first + length); ++k)
+                piece.rows.push_back(group.rows[k]);
+            pieces.push_back(std::move(piece));
+        }
+    }
+    return pieces;
 }
 
 FeSweepCounts run_fe_groups(const Sweep& inputs, const std::vector<FeGroup>& groups, int jobs, Watch& watch,

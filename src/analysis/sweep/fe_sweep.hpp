@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/prepare/ready.hpp"
-#include "analysis/sweep/sweep_tasks.hpp"
+#include "analysis/sweep/sweep_axes.hpp"
 #include "core/status.hpp"
 #include "core/watch.hpp"
 #include "fe2d/run/earthquake_run.hpp"
@@ -57,6 +57,23 @@ Sweep make_sweep(Scene scene, Axes axes);
 
 /// Scenes that FE cannot take are found here, before anything is computed. @throws UsageError
 void check_fe_scenes(const Sweep& inputs);
+
+/// Frictions of one variant, motion and FE method: what marches through the earthquake together.
+struct FeGroup {
+    std::size_t variant = 0, motion = 0, method = 0;
+    std::vector<std::size_t> rows; ///< ids, by friction
+    bool alone = false;            ///< no other motion goes with it: its rows were stopped before they finished
+};
+
+/// FE rows among `rows` in groups, ordered by variant, method and motion. Each group is dealt out to
+/// at most `parts` groups where there are fewer groups than parts; the slips do not depend on it.
+std::vector<FeGroup> fe_groups(const TaskList& tasks, const Axes& axes, const std::vector<std::size_t>& rows,
+                               std::size_t parts);
+
+/// Groups whose rows were stopped n times before they finished, cut into pieces of a 2^n-th of their rows, at least one: what stops
+/// again and again before a group is through gets through in the end, with the same slips.
+/// @param stopped  how often, by id of row
+std::vector<FeGroup> with_stopped_in_pieces(std::vector<FeGroup> groups, const std::map<std::size_t, int>& stopped);
 
 /// Takes finished runs as soon as they are there, by the ids of their rows; called from several threads.
 using TakeRuns = std::function<void(std::span<const std::size_t> ids, std::span<const fe2d::RunResult> runs)>;

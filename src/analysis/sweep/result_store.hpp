@@ -18,7 +18,7 @@ namespace damslip {
 struct RowAnchor {
     std::string name;
     double largest_force = 0.0; ///< [N/m]
-    std::string state;          ///< anchor_end()
+    std::string state;          ///< at the end: "snapped", "yielded" (at any time), else "elastic"
 
     friend bool operator==(const RowAnchor&, const RowAnchor&) = default;
 };

@@ -3,6 +3,7 @@
 #include "core/input_error.hpp"
 #include "scene/keys.hpp"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,13 +38,10 @@ struct SweepMethod {
     bool reduced = false; ///< FE on few modes of the dam
 };
 
-/// rigid, rigid-v, rocking, decoupled, coupled, the FE methods, and the regressions by their ids.
-const std::vector<SweepMethod>& sweep_method_list();
-
-/// Ids of the list, for messages and completion.
+/// Ids of all methods: rigid, rigid-v, rocking, decoupled, coupled, the FE methods, and the regressions by their ids.
 std::vector<std::string> sweep_methods();
 
-/// The method of an id of the list.
+/// The method of one of these ids.
 const SweepMethod& sweep_method(const std::string& id);
 
 /// As the table of keys and methods knows them.
@@ -96,12 +94,58 @@ double plane_friction(const Scene& scene, const std::string& plane);
 
 /// The scene with another water level [m], uplift model and water model, words as typed, then another size.
 Scene variant(Scene scene, double level, const std::string& uplift, const std::string& reservoir, double size);
-/// The same with other water in the opening base. @param opening  empty: the scene's
-Scene with_opening_water(Scene scene, const std::string& opening);
-/// The same with another mode of the flexible block. @param period, damping  none: the scene's
-Scene with_mode(Scene scene, std::optional<double> period, std::optional<double> damping);
-
 /// The axes in words, all digits, in a fixed order: what has to be equal for two sweeps to have the same rows.
 std::string text_of(const Axes& axes);
+
+/// A number for each axis of a sweep.
+struct AxisNumbers {
+    std::size_t friction = 0, plane = 0, level = 0, uplift = 0, opening = 0, reservoir = 0, size = 0, period = 0,
+                damping = 0, scale = 0, polarity = 0, record = 0, method = 0;
+};
+
+/// Positions of one row on the axes.
+using GridIndex = AxisNumbers;
+
+/// The rows of a sweep: the Cartesian product friction x plane x level x uplift x opening water x reservoir x size x period x
+/// damping x scale x polarity x record x method, numbered from 0 in this order, the last axis fastest. Its numbers are how many
+/// values each axis has.
+struct TaskList : AxisNumbers {
+    TaskList() : AxisNumbers{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1} {}
+
+    std::size_t rows() const { return friction * variants() * motions() * method; }
+    std::size_t variants() const
+    {
+        return plane * level * uplift * opening * reservoir * size * period * damping;
+    } ///< scenes but for the friction
+    std::size_t motions() const { return record * scale * polarity; }
+    std::size_t rows_of_model() const
+    {
+        return motions() * method;
+    } ///< ids of one friction and variant follow each other
+
+    GridIndex index(std::size_t id) const;
+    std::size_t id(const GridIndex& at) const;
+    std::size_t variant(const GridIndex& at) const; ///< 0 ... variants() - 1
+    std::size_t motion(const GridIndex& at) const;  ///< 0 ... motions() - 1, polarity fastest, record slowest
+};
+
+/// Friction of the plane that a row slides on [-].
+double friction_of(const Axes& axes, const GridIndex& at);
+
+TaskList make_tasks(const Axes& axes, std::size_t records);
+
+/// Part i of n of a sweep, i from 0.
+struct Shard {
+    std::size_t index = 0, count = 1;
+    friend bool operator==(const Shard&, const Shard&) = default;
+};
+
+/// "2/4". @param flag  for messages @throws UsageError
+Shard parse_shard(const std::string& text, const std::string& flag);
+
+/// Ids of a part, ascending. The rows of each method are taken in the order variant, motion, friction, so that rows which
+/// share a set-up stay together, and cut into n runs of equal length, give or take a row: every part gets its share
+/// of each method.
+std::vector<std::size_t> shard_rows(const TaskList& tasks, const Shard& shard);
 
 } // namespace damslip

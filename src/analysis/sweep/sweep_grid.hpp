@@ -2,7 +2,9 @@
 
 #include "analysis/prepare/flexible_mass.hpp"
 #include "analysis/prepare/ready.hpp"
-#include "analysis/sweep/sweep_tasks.hpp"
+#include "analysis/sweep/fe_sweep.hpp"
+#include "analysis/sweep/result_store.hpp"
+#include "analysis/sweep/sweep_axes.hpp"
 #include "core/units.hpp"
 #include "scene/scene.hpp"
 #include "sliding/block/slide.hpp"
@@ -68,5 +70,18 @@ Scene variant_of(const Scene& scene, const Axes& axes, const GridIndex& at);
 /// A rigid block on friction with water alone has the same yield acceleration at every size: weight, thrust and uplift
 /// grow with the square of the factor, and so does the added mass.
 Scene sized(Scene scene, double factor);
+
+/// Adds rows that differ in friction alone: the same as one by one, sooner. @param ids  ascending, at least one
+void add_rigid_rows(const Scene& scene, const Grid& grid, std::span<const std::size_t> ids,
+                    std::vector<FinishedRow>& rows);
+
+/// The row of an FE run, of the whole dam or of few modes of it. @param with_history  of its slip
+FinishedRow fe_row(std::size_t id, const fe2d::RunResult& run, bool with_history);
+
+/// Results of a row that an interrupted sweep did not reach.
+RowResults not_run();
+
+/// Empty: a remark of a method that does not apply.
+std::optional<Status> status_of(const FinishedRow& row);
 
 } // namespace damslip

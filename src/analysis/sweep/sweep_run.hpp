@@ -1,6 +1,7 @@
 #pragma once
 
-#include "analysis/sweep/sweep_rows.hpp"
+#include "analysis/sweep/result_store.hpp"
+#include "analysis/sweep/sweep_grid.hpp"
 #include "core/status.hpp"
 
 namespace damslip {
@@ -80,5 +81,23 @@ private:
 
 /// rigid-v where a record has a vertical component and the scene counts it, else rigid: the last method a sweep takes by itself.
 SweepMethod usual_method(const Scene& scene);
+
+/// What a table says of a row beside the results, for ResultStore::describe(): axes, names, rock, PGA.
+std::string axes_json(const Grid& grid);
+
+/// The grid of a stored sweep, as far as its table needs it: without models and motions. @param axes  of axes_json()
+Grid stored_grid(const std::string& axes);
+
+/// Parts put together.
+struct MergedSweep {
+    std::unique_ptr<ResultStore> whole;
+    std::size_t parts = 0;
+};
+
+/// The rows of all parts of a sweep in one store.
+/// @param paths  stores of parts, or folders: all files named *.i-of-n.sqlite in them
+/// @param file   of the whole; empty: a temporary one
+/// @throws InputError naming the parts that are missing, given twice, unfinished, damaged or of another sweep
+MergedSweep merge_parts(const std::vector<std::filesystem::path>& paths, const std::filesystem::path& file);
 
 } // namespace damslip

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/ablation/ablation_rows.hpp"
+#include "analysis/ablation/ablation.hpp"
 #include "core/status.hpp"
 #include "pages/report/answer.hpp"
 #include "pages/report/page.hpp"

@@ -1,6 +1,6 @@
 #include "pages/assess/assess_pages.hpp"
 
-#include "analysis/ablation/ablation_rows.hpp"
+#include "analysis/ablation/ablation.hpp"
 #include "core/text.hpp"
 #include "core/units.hpp"
 #include "pages/report/table_text.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/fe/contact_run.hpp"
+#include "analysis/fe/contact_runs.hpp"
 #include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/model/model.hpp"
 #include "pages/report/answer.hpp"

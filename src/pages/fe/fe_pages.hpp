@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/fe/contact_run.hpp"
+#include "analysis/fe/contact_runs.hpp"
 #include "analysis/fe/tied_runs.hpp"
 #include "analysis/fe/traced_cracks.hpp"
 #include "analysis/prepare/records.hpp"
@@ -13,6 +13,7 @@
 #include "fe2d/output/vtu.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "pages/report/answer.hpp"
+#include "pages/report/json.hpp"
 #include "pages/report/page.hpp"
 #include "scene/effect_plan.hpp"
 #include "scene/scene.hpp"

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "analysis/prepare/wedge_model.hpp"
-#include "analysis/screen/needed.hpp"
+#include "analysis/prepare/rigid_model.hpp"
 #include "analysis/screen/regression_rows.hpp"
 #include "analysis/screen/screening.hpp"
 #include "core/csv.hpp"

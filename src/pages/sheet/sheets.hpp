@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/fe/contact_run.hpp"
+#include "analysis/fe/contact_runs.hpp"
 #include "analysis/prepare/ready.hpp"
 #include "fe2d/run/run_history.hpp"
 #include "pages/sheet/workbook.hpp"

@@ -19,4 +19,10 @@ void check_traced(const Scene& scene);
 /// The scene in which the tied lifts of these names are lift joints.
 Scene with_awake_lifts(Scene scene, const std::vector<std::string>& names);
 
+/// The scene whose finite elements slide on the seam that planes.slides_on names, with what of the rock moves along (Scene::seam_body);
+/// a wedge that is searched for has the angle of the least yield acceleration. The base of the dam is a joint on that rock. Without
+/// a name the scene as it is.
+/// @throws UsageError where no seam has the name; InputError for what finite elements cannot follow on a seam
+Scene with_seam_body(Scene scene);
+
 } // namespace damslip
