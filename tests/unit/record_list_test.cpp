@@ -106,6 +106,27 @@ TEST_F(RecordFolder, a_list_says_it_all)
     EXPECT_THROW(record_list((folder / "gone.csv").string()), InputError);
 }
 
+TEST_F(RecordFolder, a_list_has_a_heading_for_each_field)
+{
+    const auto refused = [&](const std::string& text) -> std::string {
+        write("list.csv", text);
+        try {
+            record_list((folder / "list.csv").string());
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    for (const auto& [text, words] :
+         {std::pair<std::string, std::string>{"horizontal,scale\na_h.csv,1,5\n",
+                                              "list.csv:2: error: 3 fields below 2 headings."},
+          {"horizontal\na_h.csv,a_v.csv\n", "list.csv:2: error: 2 fields below 1 heading."},
+          {"horizontal,horizontal\na_h.csv,a_v.csv\n", "list.csv:1: error: the column horizontal stands twice."},
+          {"horizontal,scale,scale\na_h.csv,1,3\n", "list.csv:1: error: the column scale stands twice."}})
+        EXPECT_NE(refused(text).find(words), std::string::npos) << refused(text);
+    EXPECT_EQ(refused("horizontal,vertical,scale\na_h.csv,a_v.csv,2,,\nb000.csv\n"), ""); // nothing is lost
+}
+
 TEST_F(RecordFolder, a_list_of_seeds_is_made_first)
 {
     write("seeds.csv", "name,seed,pga_m_s2,duration_s,event,weight,vertical\nx,1,2,5,quake,3,no\n");
