@@ -1,8 +1,10 @@
 // Every way a good file may look, and that what is read is what is written.
+#include "core/input_error.hpp"
 #include "records/read/read_record.hpp"
 #include "records/write/write_record.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <gtest/gtest.h>
 
 namespace {
@@ -186,6 +188,43 @@ TEST(RecordRead, rounded_times_are_even)
     std::string content;
     for (int k = 0; k < 300; ++k) content += std::to_string(k / 128.0) + " 0.1\n"; // 6 decimals
     EXPECT_NEAR(one(content, o).dt, 1.0 / 128.0, 2e-9);
+}
+
+// Steps that are rounded to one or two units of the last digit, at equal distances: 80, 1024 and 101 samples a second. Where the
+// distances are long, a line might be missing: the step has to be stated.
+TEST(RecordRead, rounded_steps_are_no_missing_lines)
+{
+    ReadOptions o;
+    o.unit = "g";
+    const auto times = [](double dt, int decimals, int count) {
+        std::string content;
+        for (int k = 0; k < count; ++k) {
+            char line[40];
+            std::snprintf(line, sizeof line, "%.*f 0.1\n", decimals, k * dt);
+            content += line;
+        }
+        return content;
+    };
+    EXPECT_NEAR(one(times(0.0125, 2, 2000), o).dt, 0.0125, 1e-9);
+    EXPECT_NEAR(one(times(1.0 / 1024.0, 3, 3000), o).dt, 1.0 / 1024.0, 1e-6);
+    EXPECT_NEAR(one(times(1.0 / 101.0, 2, 2000), o).dt, 1.0 / 101.0, 1e-5);
+    const std::string rare = times(0.01001, 2, 1500);
+    EXPECT_THROW(one(rare, o), InputError);
+    o.dt = 0.01001;
+    EXPECT_EQ(one(rare, o).acceleration.size(), 1500u);
+}
+
+TEST(RecordRead, missing_line_on_request_is_interpolated)
+{
+    ReadOptions o;
+    o.unit = "m/s2";
+    o.uneven = UnevenTime::resample;
+    std::string content;
+    for (int k = 0; k < 40; ++k)
+        if (k != 25) content += "0." + std::to_string(k / 10) + std::to_string(k % 10) + " " + std::to_string(k) + "\n";
+    const Record r = one(content, o);
+    ASSERT_EQ(r.acceleration.size(), 40u);
+    EXPECT_NEAR(r.acceleration[25], 25.0, 1e-9);
 }
 
 TEST(RecordRead, warnings)
