@@ -187,6 +187,17 @@ void read_headings(const RecordText& text, std::size_t first, std::size_t width,
 
 } // namespace
 
+namespace {
+
+/// A field without the double quotes around it.
+std::string_view unquoted(std::string_view field)
+{
+    const bool quoted = field.size() >= 2 && field.front() == '"' && field.back() == '"';
+    return quoted ? trimmed(field.substr(1, field.size() - 2)) : field;
+}
+
+} // namespace
+
 std::vector<std::string_view> fields_of(std::string_view line, const Dialect& dialect)
 {
     std::vector<std::string_view> fields;
@@ -197,12 +208,7 @@ std::vector<std::string_view> fields_of(std::string_view line, const Dialect& di
 void fields_of(std::string_view line, const Dialect& dialect, std::vector<std::string_view>& fields)
 {
     fields.clear();
-    const auto add = [&](std::string_view field) {
-        field = trimmed(field);
-        if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
-            field = trimmed(field.substr(1, field.size() - 2));
-        fields.push_back(field);
-    };
+    const auto add = [&](std::string_view field) { fields.push_back(unquoted(trimmed(field))); };
     if (dialect.separator == ' ') {
         for (std::size_t at = 0; (at = line.find_first_not_of(" \t", at)) != std::string_view::npos;) {
             const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
@@ -223,11 +229,14 @@ std::vector<std::string> heading_fields(std::string_view line, char separator, s
 {
     for (const char by : {separator, '\t', ',', ';', ' '}) {
         auto fields = fields_of(line, {by, false});
-        if (by == ' ' && fields.size() > width) { // "Time [sec]": the unit belongs to the name
+        if (by == ' ' && fields.size() > width) { // "Time [sec]", in quotes or without: the unit belongs to the name
             std::vector<std::string_view> joined;
             for (const std::string_view field : fields) {
-                const bool open = !joined.empty() && joined.back().find_first_of("([") != std::string_view::npos &&
-                                  joined.back().find_last_of(")]") == std::string_view::npos;
+                const bool in_brackets = !joined.empty() &&
+                                         joined.back().find_first_of("([") != std::string_view::npos &&
+                                         joined.back().find_last_of(")]") == std::string_view::npos;
+                const bool open = in_brackets || (!joined.empty() && joined.back().front() == '"' &&
+                                                  (joined.back().size() == 1 || joined.back().back() != '"'));
                 if (!joined.empty() && (open || field.front() == '(' || field.front() == '['))
                     joined.back() = {joined.back().data(),
                                      static_cast<std::size_t>(field.data() + field.size() - joined.back().data())};
@@ -238,6 +247,7 @@ std::vector<std::string> heading_fields(std::string_view line, char separator, s
         }
         if (fields.size() != width) continue;
         separated = by != ' ';
+        for (std::string_view& field : fields) field = unquoted(field);
         return {fields.begin(), fields.end()};
     }
     return {};

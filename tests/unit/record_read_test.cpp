@@ -153,6 +153,25 @@ TEST(RecordRead, csv_with_headings)
     expect_samples(one("# dt: 0.25 s\naccel_gal\n100\n-100\n"), 0.25, {1, -1});
 }
 
+// A unit behind the last underscore, in quotes or without.
+TEST(RecordRead, units_of_headings)
+{
+    const struct {
+        const char* unit;
+        double factor;
+    } rows[] = {{"cm/s2", 0.01},    {"cm/s^2", 0.01},     {"cm/s/s", 0.01},  {"cm/sec2", 0.01},
+                {"cm/sec^2", 0.01}, {"cm/sec/sec", 0.01}, {"cm/s**2", 0.01}, {"cm/s\xc2\xb2", 0.01},
+                {"m/s2", 1.0},      {"m/s\xc2\xb2", 1.0}, {"M/S/S", 1.0},    {"mm/s2", 0.001},
+                {"in/s2", 0.0254},  {"ft/s2", 0.3048},    {"%g", 0.01 * g},  {"g/10", 0.1 * g},
+                {"gals", 0.01}};
+    for (const auto& row : rows)
+        for (const std::string heading :
+             {"time_s,accel_" + std::string(row.unit), "time_s,\"acc_" + std::string(row.unit) + "\""})
+            expect_samples(one(heading + "\n0,0\n0.1,2\n"), 0.1, {0, 2 * row.factor});
+    expect_samples(one("\"time (s)\"\t\"acc (mg)\"\n0\t0\n0.1\t2\n"), 0.1, {0, 0.002 * g});
+    expect_samples(one("\"time s\" \"acc mg\"\n0 0\n0.1 2\n"), 0.1, {0, 0.002 * g});
+}
+
 TEST(RecordRead, several_acceleration_columns_are_several_records)
 {
     const std::string csv = "time_s,ns_g,ew_g,up_g\n0,0,1,2\n0.1,3,4,5\n";
