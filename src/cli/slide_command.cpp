@@ -233,6 +233,8 @@ std::vector<GroundMotion> motions_of(const SlideArguments& a, const Streams& str
         const std::string& name = file.name;
         options.column = file.column.empty() ? a.column : file.column;
         const Record record = records::read_record(file.horizontal, options);
+        for (const std::string& remark : component_remarks({file, record, std::nullopt}))
+            streams.remark("note: " + remark);
         for (const std::string& warning : record.warnings) streams.remark("note: " + name + ": " + warning);
         records::MotionOptions scaling;
         scaling.scale = a.scale;
