@@ -38,7 +38,10 @@ public:
 
     std::vector<Seeds> read()
     {
-        check_heading();
+        check_list(list_, table_,
+                   {"name", "seed", "pga_m_s2", "target", "ground", "duration_s", "dt_s", "tolerance", "vertical",
+                    "vertical_pga_m_s2", "vertical_tolerance", "event", "weight"},
+                   {"name", "seed", "pga_m_s2"}, seed_columns);
         std::vector<Seeds> all;
         std::set<std::string> names;
         for (const CsvLine& row : table_.rows) {
@@ -71,32 +74,6 @@ private:
         throw InputError(Diagnostic{list_.string(), row_->number, 0,
                                     fmt::format("{} = \"{}\" is not allowed.", name, cell(name)), expected,
                                     "correct this line"});
-    }
-
-    void check_heading() const
-    {
-        static const std::vector<std::string> known = {"name",
-                                                       "seed",
-                                                       "pga_m_s2",
-                                                       "target",
-                                                       "ground",
-                                                       "duration_s",
-                                                       "dt_s",
-                                                       "tolerance",
-                                                       "vertical",
-                                                       "vertical_pga_m_s2",
-                                                       "vertical_tolerance",
-                                                       "event",
-                                                       "weight"};
-        const auto refused = [this](const std::string& problem) {
-            return InputError(Diagnostic{list_.string(), table_.heading.number, 0, problem, std::string(seed_columns),
-                                         "correct the heading"});
-        };
-        for (const std::string& name : table_.heading.cells)
-            if (std::find(known.begin(), known.end(), name) == known.end())
-                throw refused(fmt::format("unknown column \"{}\".", name));
-        for (const char* name : {"name", "seed", "pga_m_s2"})
-            if (column(name) == table_.heading.cells.size()) throw refused(fmt::format("there is no column {}.", name));
     }
 
     double number(std::string_view name, double usual, double low, double high, const char* unit) const
@@ -225,6 +202,35 @@ void make_component(const fs::path& list, const Seeds& of, const fs::path& file,
 }
 
 } // namespace
+
+void check_list(const fs::path& list, const CsvTable& table, const std::vector<std::string>& known,
+                const std::vector<std::string>& needed, std::string_view columns)
+{
+    const std::vector<std::string>& headings = table.heading.cells;
+    const auto heading_refused = [&](const std::string& problem) {
+        return InputError(
+            Diagnostic{list.string(), table.heading.number, 0, problem, std::string(columns), "correct the heading"});
+    };
+    for (auto name = headings.begin(); name != headings.end(); ++name) {
+        if (std::find(known.begin(), known.end(), *name) == known.end())
+            throw heading_refused(fmt::format("unknown column \"{}\".", *name));
+        if (std::find(headings.begin(), name, *name) != name)
+            throw heading_refused(fmt::format("the column {} stands twice.", *name));
+    }
+    for (const std::string& name : needed)
+        if (std::find(headings.begin(), headings.end(), name) == headings.end())
+            throw heading_refused(fmt::format("there is no column {}.", name));
+    for (const CsvLine& row : table.rows) {
+        std::size_t fields = row.cells.size(); // commas at the end of a line hold nothing
+        while (fields > headings.size() && row.cells[fields - 1].empty()) --fields;
+        if (fields > headings.size())
+            throw InputError(Diagnostic{
+                list.string(), row.number, 0,
+                fmt::format("{} fields below {} heading{}.", fields, headings.size(), headings.size() == 1 ? "" : "s"),
+                "at most as many fields as headings",
+                "write decimals with a point, a field that holds a comma in quotes, or add the heading"});
+    }
+}
 
 bool is_seed_list(std::string_view text)
 {

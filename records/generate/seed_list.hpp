@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/csv.hpp"
+
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -27,6 +29,12 @@ struct SeededSuite {
 inline constexpr std::string_view seed_columns =
     "name, seed, pga_m_s2 and, as far as they are wanted, target, ground, duration_s, dt_s, tolerance, vertical, "
     "vertical_pga_m_s2, vertical_tolerance, event, weight";
+
+/// What a list of records or seeds has to be: columns of `known` alone, each once, those of `needed` among them, and in no line more fields than
+/// headings, as a decimal comma makes them. Shorter lines leave the last columns empty. @param columns  all of them, for messages
+/// @throws InputError with file and line
+void check_list(const std::filesystem::path& list, const CsvTable& table, const std::vector<std::string>& known,
+                const std::vector<std::string>& needed, std::string_view columns);
 
 /// Whether the heading of a CSV says that it is a list of seeds: it has a column `seed`.
 bool is_seed_list(std::string_view text);

@@ -25,6 +25,12 @@ struct ColumnHeading {
     std::optional<std::string> unit;     ///< as written; time: "s" or "ms"
 };
 
+/// What has to be a unit, known or not: "mm/s", "m/s²", "%".
+bool looks_like_unit(std::string_view text)
+{
+    return contains(text, "/s") || contains(text, "%") || contains(text, "\xc2\xb2");
+}
+
 /// Splits "name [unit]", "name (unit)", "name_unit" and "name unit".
 ColumnHeading split(std::string_view heading)
 {
@@ -53,6 +59,12 @@ ColumnHeading split(std::string_view heading)
         return out;
     }
     out.name = heading;
+    out.unit = take_unit(out.name, [](std::string_view text) { return acceleration_unit(text).has_value(); });
+    const std::size_t last = out.name.find_last_of('_');
+    if (!out.unit && last != std::string::npos && looks_like_unit(std::string_view(out.name).substr(last + 1))) {
+        out.unit = out.name.substr(last + 1);
+        out.name.resize(last);
+    }
     return out;
 }
 

@@ -187,6 +187,17 @@ void read_headings(const RecordText& text, std::size_t first, std::size_t width,
 
 } // namespace
 
+namespace {
+
+/// A field without the double quotes around it.
+std::string_view unquoted(std::string_view field)
+{
+    const bool quoted = field.size() >= 2 && field.front() == '"' && field.back() == '"';
+    return quoted ? trimmed(field.substr(1, field.size() - 2)) : field;
+}
+
+} // namespace
+
 std::vector<std::string_view> fields_of(std::string_view line, const Dialect& dialect)
 {
     std::vector<std::string_view> fields;
@@ -197,12 +208,7 @@ std::vector<std::string_view> fields_of(std::string_view line, const Dialect& di
 void fields_of(std::string_view line, const Dialect& dialect, std::vector<std::string_view>& fields)
 {
     fields.clear();
-    const auto add = [&](std::string_view field) {
-        field = trimmed(field);
-        if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
-            field = trimmed(field.substr(1, field.size() - 2));
-        fields.push_back(field);
-    };
+    const auto add = [&](std::string_view field) { fields.push_back(unquoted(trimmed(field))); };
     if (dialect.separator == ' ') {
         for (std::size_t at = 0; (at = line.find_first_not_of(" \t", at)) != std::string_view::npos;) {
             const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
@@ -223,11 +229,14 @@ std::vector<std::string> heading_fields(std::string_view line, char separator, s
 {
     for (const char by : {separator, '\t', ',', ';', ' '}) {
         auto fields = fields_of(line, {by, false});
-        if (by == ' ' && fields.size() > width) { // "Time [sec]": the unit belongs to the name
+        if (by == ' ' && fields.size() > width) { // "Time [sec]", in quotes or without: the unit belongs to the name
             std::vector<std::string_view> joined;
             for (const std::string_view field : fields) {
-                const bool open = !joined.empty() && joined.back().find_first_of("([") != std::string_view::npos &&
-                                  joined.back().find_last_of(")]") == std::string_view::npos;
+                const bool in_brackets = !joined.empty() &&
+                                         joined.back().find_first_of("([") != std::string_view::npos &&
+                                         joined.back().find_last_of(")]") == std::string_view::npos;
+                const bool open = in_brackets || (!joined.empty() && joined.back().front() == '"' &&
+                                                  (joined.back().size() == 1 || joined.back().back() != '"'));
                 if (!joined.empty() && (open || field.front() == '(' || field.front() == '['))
                     joined.back() = {joined.back().data(),
                                      static_cast<std::size_t>(field.data() + field.size() - joined.back().data())};
@@ -238,6 +247,7 @@ std::vector<std::string> heading_fields(std::string_view line, char separator, s
         }
         if (fields.size() != width) continue;
         separated = by != ' ';
+        for (std::string_view& field : fields) field = unquoted(field);
         return {fields.begin(), fields.end()};
     }
     return {};
@@ -332,6 +342,63 @@ double rounding_of(const TimeColumn& column)
     return column.digits >= digits_of_single ? std::max(printed, single_precision * largest) : printed;
 }
 
+/// Steps that are none at all, or two and more of the step that all others have.
+struct OddSteps {
+    std::size_t row = 0; ///< at the end of the first of them
+    std::size_t count = 0;
+    double usual = 0.0; ///< [s]
+};
+
+/// A few such steps: lines that are missing or stand twice. A step that is rounded to one unit of the last digit leaves the same traces, but
+/// at equal distances: more than ten tell the two apart. Nothing where steps differ in any other way.
+std::optional<OddSteps> odd_steps(const TimeColumn& column)
+{
+    constexpr std::size_t least_steps = 20, most_odd = 10, others_of_one = 100;
+    constexpr double longest = 100.0; // in usual steps: beyond it a time is wrong
+    const auto time = column.time;
+    if (time.size() <= least_steps) return std::nullopt;
+    std::vector<double> steps(time.size() - 1);
+    for (std::size_t k = 1; k < time.size(); ++k) steps[k - 1] = time[k] - time[k - 1];
+    std::vector<double> sorted = steps;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    OddSteps odd{0, 0, *middle};
+    if (!(odd.usual > 0.0)) return std::nullopt;
+    const double same = (1.0 + 1e-6) * std::min(2.0 * rounding_of(column), 0.5 * odd.usual);
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+        if (std::abs(steps[k] - odd.usual) <= same) continue;
+        const double times = std::round(steps[k] / odd.usual);
+        if (times < 0.0 || times == 1.0 || times > longest || std::abs(steps[k] - times * odd.usual) > same)
+            return std::nullopt;
+        if (odd.count++ == 0) odd.row = k + 1;
+    }
+    const bool few = odd.count == 1 || (odd.count <= most_odd && odd.count * others_of_one <= steps.size());
+    return odd.count > 0 && few ? std::optional(odd) : std::nullopt;
+}
+
+[[noreturn]] void refuse_odd(const RecordText& text, const TimeColumn& column, const OddSteps& odd, bool step_is_stated)
+{
+    const double step = column.time[odd.row] - column.time[odd.row - 1];
+    const double missing = std::round(step / odd.usual) - 1.0;
+    const bool twice = missing < 0.0, one = missing == 1.0;
+    const std::string what = twice ? "this line stands twice"
+                             : one ? "a line is missing above this one"
+                                   : fmt::format("{} lines are missing above this one", missing);
+    const std::size_t others = column.time.size() - 1 - odd.count;
+    const std::string more = odd.count == 1   ? ""
+                             : odd.count == 2 ? ", and one step more is odd"
+                                              : fmt::format(", and {} steps more are odd", odd.count - 1);
+    refuse(text, column.place(odd.row),
+           fmt::format("one step of {:.6g} s among {} of {:.6g} s: {}{}.", step, others, odd.usual, what, more),
+           "one time step from line to line",
+           fmt::format("{}{}",
+                       twice ? "delete the line that is too many"
+                             : "put in what is missing, or have it interpolated (`damslip record convert --resample`)",
+                       step_is_stated || !(twice || one)
+                           ? ""
+                           : "; if all lines are there and only rounded, state their step (motion.record.dt_s, --dt)"));
+}
+
 /// All times are t_0 + k dt within the rounding, t_0 being the first one or, of many times, any near it.
 bool fits(std::span<const double> time, double dt, double rounding)
 {
@@ -407,8 +474,13 @@ std::optional<double> step_of(const RecordText& text, const TimeColumn& column, 
     const auto [row, deviation] = worst_step(time);
     const bool even = rises && deviation <= even_tolerance * (1.0 + 1e-9), // the round-off of printed times aside
         as_stated = !stated || std::abs(*stated - dt) <= 1e-4 * dt;
-    if (!falls && !(even && as_stated))
-        if (const auto rounded = rounded_step(text, column, stated)) return rounded;
+    if (!falls && !(even && as_stated)) {
+        // A stated step settles what is rounded; without one, a line that is missing looks like rounding.
+        const auto odd = options.survey ? std::nullopt : odd_steps(column);
+        if (!odd || stated)
+            if (const auto rounded = rounded_step(text, column, stated)) return rounded;
+        if (odd && (!rises || options.uneven == UnevenTime::refuse)) refuse_odd(text, column, *odd, stated.has_value());
+    }
     refuse_falling(text, column);
     if (!even) {
         if (options.uneven == UnevenTime::resample) return std::nullopt;

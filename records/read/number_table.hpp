@@ -72,8 +72,9 @@ std::size_t significant_digits(std::string_view number);
 /// The uniform step of these times. They are even where all steps are equal within even_tolerance, and where all times are t_0 + k dt within
 /// the rounding of their printed digits or of single precision; `stated` (file or user) is kept when it agrees within 1e-4, or within that
 /// rounding.
-/// @throws InputError: not rising, uneven (unless options.uneven is resample: then nothing is returned), rounded so that the step stays open
-/// by more than even_tolerance, or not the stated step.
+/// @throws InputError: not rising, uneven (unless options.uneven is resample: then nothing is returned), with a few steps of none or of two and
+/// more among equal ones (a line that stands twice or is missing), rounded so that the step stays open by more than even_tolerance, or not the
+/// stated step.
 std::optional<double> step_of(const RecordText& text, const TimeColumn& column, std::optional<double> stated,
                               const ReadOptions& options);
 

@@ -1,19 +1,23 @@
 #include "analysis/prepare/record_list.hpp"
+#include "analysis/prepare/records.hpp"
 #include "analysis/screen/regression_rows.hpp"
 #include "cli/command.hpp"
 #include "cli/input/make_axes.hpp"
 #include "core/file.hpp"
-#include "core/text.hpp"
-#include "core/status.hpp"
-#include "core/units.hpp"
 #include "core/input_error.hpp"
+#include "core/status.hpp"
+#include "core/text.hpp"
+#include "core/units.hpp"
 #include "pages/report/json.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/screen/screen_pages.hpp"
+#include "records/read/header.hpp"
 #include "records/read/number_table.hpp"
 #include "records/read/read_record.hpp"
 #include "records/transform/transform.hpp"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -29,7 +33,7 @@ namespace {
 /// A yield acceleration, what slides on it, and records. In the units of the flags.
 struct SlideArguments {
     std::string yield_g, yield_m_s2;   ///< lists, as the axes of a sweep
-    std::filesystem::path yield_table; ///< rows of slip [mm] and yield [g]; one of the three is given
+    std::filesystem::path yield_table; ///< rows of slip and yield; one of the three is given
     std::vector<std::filesystem::path> records;
     std::string record_list; ///< folder, pattern or list in place of them
     std::string unit, column;
@@ -46,31 +50,98 @@ using units::standard_gravity;
 
 constexpr double largest_yield_g = 10.0;
 
-/// Rows of slip [mm] and yield [g], the first at 0 mm. @throws InputError with file, line and column
+/// What a column of a yield table holds: one number of it is `factor` m, or `factor` m/s2.
+struct YieldColumn {
+    bool is_yield = false;
+    double factor = 1.0;
+    std::string unit; ///< for messages
+};
+
+constexpr std::string_view yield_headings =
+    "slip_mm, slip_cm or slip_m, and yield_g, yield_m_s2 or yield_cm_s2, either first";
+
+/// "slip_m", "Slip [cm]", "yield_m_s2", "a_y (g)"; without a unit mm and g. Nothing for others.
+std::optional<YieldColumn> yield_column(std::string_view heading)
+{
+    std::string name = records::lower(records::trimmed(heading));
+    const auto length = [](std::string_view unit) {
+        return unit == "mm" ? units::mm : unit == "cm" ? units::cm : unit == "m" ? 1.0 : 0.0;
+    };
+    const std::string unit = records::take_unit(name, [&](std::string_view u) {
+                                 return length(u) > 0.0 || records::acceleration_unit(u);
+                             }).value_or("");
+    std::replace(name.begin(), name.end(), '_', ' ');
+    const auto is = [&](std::initializer_list<std::string_view> names) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    const auto accel = records::acceleration_unit(unit.empty() ? "g" : unit);
+    if (is({"slip", "displacement", "sliding"}) && (unit.empty() || length(unit) > 0.0))
+        return YieldColumn{false, unit.empty() ? units::mm : length(unit), unit.empty() ? "mm" : unit};
+    if (is({"yield", "a y", "ay", "yield acceleration", "yield accel", "k y", "ky", "yield coefficient"}) && accel)
+        return YieldColumn{true, accel->factor, std::string(accel->name)};
+    return std::nullopt;
+}
+
+/// The two columns by the heading above the numbers, or by the comment there that names both; without one slip [mm] and yield [g].
+std::array<YieldColumn, 2> yield_columns(const records::RecordText& text, const records::NumberTable& table)
+{
+    std::array<YieldColumn, 2> columns{YieldColumn{false, units::mm, "mm"}, YieldColumn{true, standard_gravity, "g"}};
+    const auto take = [&](const std::vector<std::string>& headings) {
+        const auto first = yield_column(headings.front()), second = yield_column(headings.back());
+        if (headings.size() != 2 || !first || !second || first->is_yield == second->is_yield) return false;
+        columns = {*first, *second};
+        return true;
+    };
+    if (!table.headings.empty() || !table.skipped_lines.empty()) {
+        const std::size_t line = table.headings.empty() ? table.skipped_lines.back() : table.heading_line;
+        if (table.headings.empty() || !take(table.headings))
+            records::refuse(text, {line, 0},
+                            fmt::format("{} is no heading of a yield acceleration over slip.",
+                                        records::in_quotes(records::trimmed(text.lines[line - 1]))),
+                            std::string(yield_headings), "write  slip_mm,yield_g  or put # before a remark");
+        return columns;
+    }
+    if (const std::size_t line = table.row_line.front() - 1; line > 0 && records::is_comment(text.lines[line - 1])) {
+        bool separated = false;
+        const std::string_view words = records::trimmed(records::trimmed(text.lines[line - 1]).substr(1));
+        if (const auto names = records::heading_fields(words, table.dialect.separator, 2, separated); !names.empty())
+            take(names);
+    }
+    return columns;
+}
+
+/// Rows of slip and yield in the units of their headings, the first at slip 0. @throws InputError with file, line and column
 std::vector<sliding::YieldPoint> read_yield_table(const std::filesystem::path& path)
 {
     const std::string content = read_file(path), name = path.string();
     const records::RecordText text = records::split_lines(content, name);
     const records::NumberTable table = records::read_number_table(text);
+    const std::array<YieldColumn, 2> columns = yield_columns(text, table);
+    const std::size_t of_slip = columns[0].is_yield ? 1 : 0, of_yield = 1 - of_slip;
+    const YieldColumn &slips = columns[of_slip], &yields = columns[of_yield];
     std::vector<sliding::YieldPoint> points;
     for (std::size_t row = 0; row < table.rows(); ++row) {
         if (table.width(row) != 2)
             records::refuse(text, {table.row_line[row], 0},
                             fmt::format("{} numbers in a line of a yield acceleration over slip.", table.width(row)),
-                            "two: slip [mm] and yield acceleration [g]", "correct the line");
-        const double slip = table.values[table.row_begin[row]], yield = table.values[table.row_begin[row] + 1];
-        if (!(yield >= 0.0 && yield <= largest_yield_g))
-            records::refuse(text, table.place(row, 1, text),
-                            fmt::format("a yield acceleration of {} g.", shortest(yield)),
-                            fmt::format("a number from 0 to {:g}", largest_yield_g), "write it in g");
+                            fmt::format("two: slip [{}] and yield acceleration [{}]", slips.unit, yields.unit),
+                            "correct the line");
+        const double slip = table.values[table.row_begin[row] + of_slip],
+                     yield = table.values[table.row_begin[row] + of_yield];
+        if (!(yield >= 0.0 && yield * yields.factor <= largest_yield_g * standard_gravity))
+            records::refuse(text, table.place(row, of_yield, text),
+                            fmt::format("a yield acceleration of {} {}.", shortest(yield), yields.unit),
+                            fmt::format("a number from 0 to {:g} g", largest_yield_g),
+                            "correct the number, or the unit of its heading");
         if (points.empty() && slip != 0.0)
-            records::refuse(text, table.place(row, 0, text), fmt::format("the first slip is {} mm.", shortest(slip)),
+            records::refuse(text, table.place(row, of_slip, text),
+                            fmt::format("the first slip is {} {}.", shortest(slip), slips.unit),
                             "0, the block that has not slipped", "begin the table with its yield at slip 0");
-        if (!points.empty() && slip * units::mm < points.back().path)
-            records::refuse(text, table.place(row, 0, text),
-                            fmt::format("a slip of {} mm after a larger one.", shortest(slip)), "slips that ascend",
-                            "sort the rows by slip");
-        points.push_back({slip * units::mm, yield * standard_gravity});
+        if (!points.empty() && slip * slips.factor < points.back().path)
+            records::refuse(text, table.place(row, of_slip, text),
+                            fmt::format("a slip of {} {} after a larger one.", shortest(slip), slips.unit),
+                            "slips that ascend", "sort the rows by slip");
+        points.push_back({slip * slips.factor, yield * yields.factor});
     }
     return points;
 }
@@ -162,6 +233,8 @@ std::vector<GroundMotion> motions_of(const SlideArguments& a, const Streams& str
         const std::string& name = file.name;
         options.column = file.column.empty() ? a.column : file.column;
         const Record record = records::read_record(file.horizontal, options);
+        for (const std::string& remark : component_remarks({file, record, std::nullopt}))
+            streams.remark("note: " + remark);
         for (const std::string& warning : record.warnings) streams.remark("note: " + name + ": " + warning);
         records::MotionOptions scaling;
         scaling.scale = a.scale;
@@ -179,7 +252,8 @@ void slide_flags(CLI::App& sub, SlideArguments& a)
     sub.add_option("--yield-g", a.yield_g, "yield acceleration a_y [g], or several: 0.05,0.1 or 0.05:0.2:0.05");
     sub.add_option("--yield-m-s2", a.yield_m_s2, "the same [m/s^2]");
     sub.add_option("--yield-table", a.yield_table,
-                   "file of slip [mm] and a_y [g], the first at 0 mm; straight lines between, the last holds");
+                   "file of slip and a_y, units by its headings (slip_mm,yield_g; none: mm and g), the first at slip 0; "
+                   "straight lines between, the last holds");
     sub.option_defaults()->group("Ground motion");
     sub.add_option("--record", a.records, "horizontal accelerogram(s)");
     sub.add_option("--records", a.record_list, "folder, pattern in quotes or list (CSV) of accelerograms");

@@ -195,8 +195,9 @@ std::vector<KeyGroup> motion_groups()
         "motion", "Ground motion. a_h positive upstream drives the dam downstream, a_v positive up.", &Scene::motion,
         {number("scale", none, Range::at_least(0), "1", "factor on all components", "1.5", at(&Motion::scale)),
          number("scale_to_pga", acceleration, Range::above(0), "as recorded",
-                "horizontal peak is made equal to this, the vertical by the same factor", "1.0",
-                at(&Motion::scale_to_pga)),
+                "horizontal peak is made equal to this, the vertical by the same factor; motion.scale and "
+                "motion.record.scale are factors on top",
+                "1.0", at(&Motion::scale_to_pga)),
          word("polarity", "both",
               "the one sign on the horizontal components as filed that `fe`, `sweep`, `accuracy` and `explain "
               "--ablate` run; `screen`, `assess`, `fragility` run both",

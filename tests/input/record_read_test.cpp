@@ -28,6 +28,16 @@ ReadOptions given(std::string unit, std::optional<double> dt = {}, std::string c
     return {std::move(unit), dt, UnevenTime::refuse, std::move(column)};
 }
 
+/// Times of 0.01 s with two decimals, line `odd_line` (from 0) so many times.
+std::string hundredths(int count, int odd_line, int times)
+{
+    std::string text;
+    for (int k = 0; k < count; ++k)
+        for (int copy = 0; copy < (k == odd_line ? times : 1); ++copy)
+            text += std::to_string(k / 100) + "." + std::to_string(k / 10 % 10) + std::to_string(k % 10) + " 1\n";
+    return text;
+}
+
 const std::string peer = "PEER NGA\nSTATION, 230\nACCELERATION TIME SERIES IN UNITS OF G\n";
 
 const std::vector<BadRecord> bad_records{
@@ -241,6 +251,27 @@ const std::vector<BadRecord> bad_records{
      "x.txt:3:1: error: the time step is uneven: 0.03 s here, 0.0233333 s on average (29 % off).", "--resample"},
     {"time_uneven_with_dt", "0 1\n0.02 1\n0.05 1\n0.07 1\n", given("g", 0.02),
      "x.txt:3:1: error: the time step is uneven: 0.03 s here, 0.0233333 s on average (29 % off).", "--resample"},
+    // A line that is missing or stands twice is as far off as times that are rounded.
+    {"line_missing", hundredths(2000, 1000, 0), given("g"),
+     "x.txt:1001:1: error: one step of 0.02 s among 1997 of 0.01 s: a line is missing above this one.", "--dt"},
+    {"line_twice", hundredths(2000, 1000, 2), given("g"),
+     "x.txt:1002:1: error: one step of 0 s among 1999 of 0.01 s: this line stands twice.", "delete the line"},
+    {"line_missing_in_short_record", hundredths(300, 100, 0), given("g"),
+     "x.txt:101:1: error: one step of 0.02 s among 297 of 0.01 s: a line is missing above this one.", "--resample"},
+    {"line_missing_with_dt", hundredths(2000, 1000, 0), given("g", 0.01),
+     "x.txt:1001:1: error: one step of 0.02 s among 1997 of 0.01 s: a line is missing above this one.", "--resample"},
+    {"lines_missing_and_twice", hundredths(1000, 200, 0) + "10.00 1\n10.00 1\n", given("g"),
+     "x.txt:201:1: error: one step of 0.02 s among 998 of 0.01 s: a line is missing above this one, and one step more "
+     "is odd.",
+     "put in what is missing"},
+    {"lines_missing", hundredths(1000, 200, 0) + "10.20 1\n", given("g"),
+     "x.txt:201:1: error: one step of 0.02 s among 997 of 0.01 s: a line is missing above this one, and one step more "
+     "is odd.",
+     "put in what is missing"},
+    {"twenty_lines_missing", hundredths(1000, 1000, 0) + "10.20 1\n", given("g"),
+     "x.txt:1001:1: error: one step of 0.21 s among 999 of 0.01 s: 20 lines are missing above this one.", "--resample"},
+    {"time_far_off", hundredths(1000, 1000, 0) + "99.99 1\n", given("g"),
+     "x.txt:1001:1: error: the time step is uneven: 90 s here, 0.09999 s on average (9e+04 % off).", "--resample"},
     {"time_against_dt", "0 1\n0.02 1\n0.04 1\n", given("g", 0.01),
      "x.txt:1: error: the time column steps by 0.02 s, but dt = 0.01 s is stated.", "--dt"},
     {"time_step_too_long", "0 1\n20 1\n40 1\n", given("g"),
@@ -266,6 +297,12 @@ const std::vector<BadRecord> bad_records{
      {},
      "x.txt:1: error: unit 'm/s2' here, but 'g' in the heading of line 2.",
      "correct one"},
+    {"heading_unit_with_slash_against_given", "time_s,accel_cm/s2\n0,1\n1,2\n", given("m/s2"),
+     "x.txt:1: error: the file says its unit is cm/s2, but m/s2 was given.", "leave the given unit out"},
+    {"heading_unit_of_velocity", "time_s,accel_mm/s\n0,1\n1,2\n", given("m/s2"),
+     "x.txt:1: error: the unit 'mm/s' is not known.", "correct the line"},
+    {"quoted_heading_unit_against_given", "\"time (s)\"\t\"acc (mg)\"\n0\t1\n1\t2\n", given("g"),
+     "x.txt:1: error: the file says its unit is mg, but g was given.", "leave the given unit out"},
     {"row_too_short", "time_s,acc_g\n0,1\n1\n", {}, "x.txt:3: error: 1 values under 2 headings.", "fill the line in"},
     {"field_empty", "time_s,acc_g\n0,1\n1,,\n", {}, "x.txt:3:3: error: a value is missing here.", "fill it in"},
     {"first_row_is_nan", "0,nan\n0.1,1\n0.2,1\n", given("g"),

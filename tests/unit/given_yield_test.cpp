@@ -178,6 +178,26 @@ TEST_F(SlideCommand, ATableLetsItSlideFarther)
     EXPECT_LT(slip({"--yield-table", file("good.csv")}), slip({"--yield-g", "0.08"}));
 }
 
+// The same yield in other units, in the other order, and under a comment as numpy writes it.
+TEST_F(SlideCommand, HeadingsOfATableSayItsUnits)
+{
+    const auto rows = [&](const std::string& text) {
+        std::ofstream(folder / "table.csv") << text;
+        const ProgramAnswer a =
+            answer_of({"slide", "--yield-table", file("table.csv"), "--record", file("pulse.csv"), "--json"});
+        EXPECT_EQ(a.code, 0) << a.talk;
+        const auto row = a.code == 0 ? nlohmann::json::parse(a.out)["rows"][0] : nlohmann::json();
+        return row.is_null() ? 0.0 : row["slip_mm"].get<double>();
+    };
+    const double slip = rows("slip_mm,yield_g\n0,0.1\n50,0.08\n");
+    EXPECT_GT(slip, 1.0);
+    for (const char* text :
+         {"0,0.1\n50.0,0.08\n", "slip,yield\n0,0.1\n50,0.08\n", "yield_g,slip_mm\n0.1,0\n0.08,50\n",
+          "slip_m,yield_m_s2\n0,0.980665\n0.05,0.784532\n", "Slip [cm];a_y (cm/s2)\n0;98.0665\n5;78.4532\n",
+          "# of mine\n# slip_m a_y_g\n0 0.1\n0.05 0.08\n", "block A\nslip_m,k_y\n0,0.1\n0.05,0.08\n"})
+        EXPECT_NEAR(rows(text), slip, 1e-9 * slip) << text;
+}
+
 TEST_F(SlideCommand, WrongInputIsRefusedWithItsPlace)
 {
     const auto says = [&](const std::vector<std::string>& words, const std::string& what) {
@@ -188,6 +208,15 @@ TEST_F(SlideCommand, WrongInputIsRefusedWithItsPlace)
     const std::string record = file("pulse.csv");
     says({"slide", "--yield-table", file("late.csv"), "--record", record}, "late.csv:2");
     says({"slide", "--yield-table", file("back.csv"), "--record", record}, "back.csv:4");
+    const auto table_says = [&](const std::string& text, const std::string& what) {
+        std::ofstream(folder / "table.csv") << text;
+        says({"slide", "--yield-table", file("table.csv"), "--record", record}, what);
+    };
+    table_says("slip_in,yield_g\n0,0.1\n50,0.08\n", "table.csv:1: error: 'slip_in,yield_g' is no heading of a yield");
+    table_says("slip_mm,yield_kPa\n0,0.1\n50,0.08\n", "table.csv:1: error:");
+    table_says("slip_mm,slip_m\n0,0.1\n50,0.08\n", "table.csv:1: error:");
+    table_says("slip in m and yield in m/s2\n0,1.2\n0.05,0.8\n", "table.csv:1: error:");
+    table_says("slip_m,yield_m_s2\n0,120\n0.05,0.8\n", "table.csv:2:3: error: a yield acceleration of 120 m/s2.");
     says({"slide", "--record", record}, "--yield-g");
     says({"slide", "--yield-g", "0.1,11", "--record", record}, "--yield-g 11 is not allowed");
     says({"slide", "--yield-g", "0.1,nan", "--record", record}, "--yield-g");

@@ -108,6 +108,27 @@ TEST_F(RecordFolder, a_list_says_it_all)
     EXPECT_THROW(record_list((folder / "gone.csv").string()), InputError);
 }
 
+TEST_F(RecordFolder, a_list_has_a_heading_for_each_field)
+{
+    const auto refused = [&](const std::string& text) -> std::string {
+        write("list.csv", text);
+        try {
+            record_list((folder / "list.csv").string());
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    for (const auto& [text, words] :
+         {std::pair<std::string, std::string>{"horizontal,scale\na_h.csv,1,5\n",
+                                              "list.csv:2: error: 3 fields below 2 headings."},
+          {"horizontal\na_h.csv,a_v.csv\n", "list.csv:2: error: 2 fields below 1 heading."},
+          {"horizontal,horizontal\na_h.csv,a_v.csv\n", "list.csv:1: error: the column horizontal stands twice."},
+          {"horizontal,scale,scale\na_h.csv,1,3\n", "list.csv:1: error: the column scale stands twice."}})
+        EXPECT_NE(refused(text).find(words), std::string::npos) << refused(text);
+    EXPECT_EQ(refused("horizontal,vertical,scale\na_h.csv,a_v.csv,2,,\nb000.csv\n"), ""); // nothing is lost
+}
+
 TEST_F(RecordFolder, a_list_of_seeds_is_made_first)
 {
     write("seeds.csv", "name,seed,pga_m_s2,duration_s,event,weight,vertical\nx,1,2,5,quake,3,no\n");
@@ -124,6 +145,64 @@ TEST_F(RecordFolder, a_list_of_seeds_is_made_first)
     ASSERT_EQ(first.code, 0) << first.talk;
     EXPECT_TRUE(std::filesystem::exists(index));
     EXPECT_EQ(answer_of({"record", "suite", (folder / "seeds.csv").string()}).out, first.out);
+}
+
+constexpr const char* listed_block =
+    "[section]\nheight_m = 10\nbase_m = 20\n[dam]\ndensity_kg_m3 = 2000\n[contact]\nfriction = 0.1\n";
+
+/// All that `screen` warns of.
+std::string screen_warnings(const std::vector<std::string>& arguments)
+{
+    std::vector<std::string> all{"screen", "--rigid-only", "--json"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const ProgramAnswer a = answer_of(all);
+    EXPECT_EQ(a.code, 0) << a.talk;
+    return a.code == 0 ? nlohmann::json::parse(a.out)["warnings"].dump() : "";
+}
+
+TEST_F(RecordFolder, components_against_their_headers_are_named)
+{
+    const std::string samples = "# units: m/s2\n# dt: 0.1 s\n0\n2\n-2\n0\n";
+    write("p.csv", "# component: v\n" + samples);
+    write("q.csv", "# component: h\n" + samples);
+    const auto scene = [&](const std::string& horizontal, const std::string& vertical) {
+        write("dam.toml", listed_block + ("[[motion.record]]\nhorizontal = \"" + horizontal + "\"\nvertical = \"" +
+                                          vertical + "\"\n"));
+        return (folder / "dam.toml").string();
+    };
+    const std::string p = "p.csv: vertical by its header (v), taken as horizontal.",
+                      q = "q.csv: horizontal by its header (h), taken as vertical.";
+    const std::string swapped = screen_warnings({scene("p.csv", "q.csv")});
+    EXPECT_NE(swapped.find(p), std::string::npos) << swapped;
+    EXPECT_NE(swapped.find(q), std::string::npos) << swapped;
+    EXPECT_EQ(screen_warnings({scene("q.csv", "p.csv")}).find("by its header"), std::string::npos);
+    write("list.csv", "horizontal\np.csv\n");
+    const std::string list = (folder / "list.csv").string();
+    const std::string listed = screen_warnings({scene("q.csv", "p.csv"), "--records", list});
+    EXPECT_NE(listed.find(p), std::string::npos) << listed;
+    const ProgramAnswer slide = answer_of({"slide", "--yield-g", "0.05", "--records", list});
+    EXPECT_NE(slide.talk.find(p), std::string::npos) << slide.talk;
+}
+
+TEST_F(RecordFolder, factors_on_a_stated_peak_are_named)
+{
+    const auto warned = [&](const std::string& motion, const std::string& record,
+                            const std::vector<std::string>& more) {
+        write("dam.toml",
+              listed_block + ("[motion]\n" + motion + "[[motion.record]]\nhorizontal = \"a_h.csv\"\n" + record));
+        std::vector<std::string> arguments{(folder / "dam.toml").string()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return screen_warnings(arguments);
+    };
+    const std::string pga = "scale_to_pga_m_s2 = 3\n",
+                      words = "motion.scale_to_pga = 3 m/s2 is followed by a factor of 2";
+    EXPECT_EQ(warned(pga, "", {}).find("scale_to_pga"), std::string::npos);
+    EXPECT_EQ(warned("scale = 2\n", "scale = 2\n", {}).find("scale_to_pga"), std::string::npos);
+    for (const std::string said :
+         {warned(pga + "scale = 2\n", "", {}), warned(pga, "scale = 2\n", {}), warned(pga, "", {"--scale", "2"})}) {
+        EXPECT_NE(said.find(words), std::string::npos) << said;
+        EXPECT_NE(said.find("is 6 m/s2 (0.6118 g)"), std::string::npos) << said;
+    }
 }
 
 TEST_F(RecordFolder, records_of_the_command_line_take_the_scenes_place)

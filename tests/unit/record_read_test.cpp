@@ -1,8 +1,10 @@
 // Every way a good file may look, and that what is read is what is written.
+#include "core/input_error.hpp"
 #include "records/read/read_record.hpp"
 #include "records/write/write_record.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <gtest/gtest.h>
 
 namespace {
@@ -151,6 +153,25 @@ TEST(RecordRead, csv_with_headings)
     expect_samples(one("# dt: 0.25 s\naccel_gal\n100\n-100\n"), 0.25, {1, -1});
 }
 
+// A unit behind the last underscore, in quotes or without.
+TEST(RecordRead, units_of_headings)
+{
+    const struct {
+        const char* unit;
+        double factor;
+    } rows[] = {{"cm/s2", 0.01},    {"cm/s^2", 0.01},     {"cm/s/s", 0.01},  {"cm/sec2", 0.01},
+                {"cm/sec^2", 0.01}, {"cm/sec/sec", 0.01}, {"cm/s**2", 0.01}, {"cm/s\xc2\xb2", 0.01},
+                {"m/s2", 1.0},      {"m/s\xc2\xb2", 1.0}, {"M/S/S", 1.0},    {"mm/s2", 0.001},
+                {"in/s2", 0.0254},  {"ft/s2", 0.3048},    {"%g", 0.01 * g},  {"g/10", 0.1 * g},
+                {"gals", 0.01}};
+    for (const auto& row : rows)
+        for (const std::string heading :
+             {"time_s,accel_" + std::string(row.unit), "time_s,\"acc_" + std::string(row.unit) + "\""})
+            expect_samples(one(heading + "\n0,0\n0.1,2\n"), 0.1, {0, 2 * row.factor});
+    expect_samples(one("\"time (s)\"\t\"acc (mg)\"\n0\t0\n0.1\t2\n"), 0.1, {0, 0.002 * g});
+    expect_samples(one("\"time s\" \"acc mg\"\n0 0\n0.1 2\n"), 0.1, {0, 0.002 * g});
+}
+
 TEST(RecordRead, several_acceleration_columns_are_several_records)
 {
     const std::string csv = "time_s,ns_g,ew_g,up_g\n0,0,1,2\n0.1,3,4,5\n";
@@ -186,6 +207,43 @@ TEST(RecordRead, rounded_times_are_even)
     std::string content;
     for (int k = 0; k < 300; ++k) content += std::to_string(k / 128.0) + " 0.1\n"; // 6 decimals
     EXPECT_NEAR(one(content, o).dt, 1.0 / 128.0, 2e-9);
+}
+
+// Steps that are rounded to one or two units of the last digit, at equal distances: 80, 1024 and 101 samples a second. Where the
+// distances are long, a line might be missing: the step has to be stated.
+TEST(RecordRead, rounded_steps_are_no_missing_lines)
+{
+    ReadOptions o;
+    o.unit = "g";
+    const auto times = [](double dt, int decimals, int count) {
+        std::string content;
+        for (int k = 0; k < count; ++k) {
+            char line[40];
+            std::snprintf(line, sizeof line, "%.*f 0.1\n", decimals, k * dt);
+            content += line;
+        }
+        return content;
+    };
+    EXPECT_NEAR(one(times(0.0125, 2, 2000), o).dt, 0.0125, 1e-9);
+    EXPECT_NEAR(one(times(1.0 / 1024.0, 3, 3000), o).dt, 1.0 / 1024.0, 1e-6);
+    EXPECT_NEAR(one(times(1.0 / 101.0, 2, 2000), o).dt, 1.0 / 101.0, 1e-5);
+    const std::string rare = times(0.01001, 2, 1500);
+    EXPECT_THROW(one(rare, o), InputError);
+    o.dt = 0.01001;
+    EXPECT_EQ(one(rare, o).acceleration.size(), 1500u);
+}
+
+TEST(RecordRead, missing_line_on_request_is_interpolated)
+{
+    ReadOptions o;
+    o.unit = "m/s2";
+    o.uneven = UnevenTime::resample;
+    std::string content;
+    for (int k = 0; k < 40; ++k)
+        if (k != 25) content += "0." + std::to_string(k / 10) + std::to_string(k % 10) + " " + std::to_string(k) + "\n";
+    const Record r = one(content, o);
+    ASSERT_EQ(r.acceleration.size(), 40u);
+    EXPECT_NEAR(r.acceleration[25], 25.0, 1e-9);
 }
 
 TEST(RecordRead, warnings)

@@ -98,6 +98,8 @@ TEST_F(SeedList, RefusesByLine)
     const std::string good = "a,3,2,,,5,no,\n";
     for (const auto& [text, word] : {std::pair<std::string, std::string>{"name,seed\na,1\n", "no column pga_m_s2"},
                                      {"name,seed,pga_m_s2,mass\n", "unknown column \"mass\""},
+                                     {"name,seed,pga_m_s2\na,1,2,5\n", "4 fields below 3 headings."},
+                                     {"name,seed,pga_m_s2,seed\na,1,2,5\n", "the column seed stands twice."},
                                      {std::string(heading), "no line below"},
                                      {heading + good + "b,-1,2,,,5,no,\n", "seed = \"-1\""},
                                      {heading + good + "b,1e3,2,,,5,no,\n", "seed = \"1e3\""},

@@ -94,12 +94,25 @@ std::vector<RecordFiles> files_of(const std::vector<RecordPair>& records)
 }
 
 /// Beside what else is said of the scene, once.
+void add_note(Scene& scene, Diagnostic note)
+{
+    if (std::none_of(scene.notes.begin(), scene.notes.end(),
+                     [&](const Diagnostic& n) { return n.problem == note.problem; }))
+        scene.notes.push_back(std::move(note));
+}
+
 void note_not_honoured(Scene& scene, Methods set)
 {
-    for (Diagnostic& note : not_honoured(scene, set))
-        if (std::none_of(scene.notes.begin(), scene.notes.end(),
-                         [&](const Diagnostic& n) { return n.problem == note.problem; }))
-            scene.notes.push_back(std::move(note));
+    for (Diagnostic& note : not_honoured(scene, set)) add_note(scene, std::move(note));
+}
+
+/// Records that are not what their use says.
+void note_records(Scene& scene, const std::vector<RecordPair>& records)
+{
+    for (const RecordPair& pair : records)
+        for (std::string& remark : component_remarks(pair)) add_note(scene, {"", 0, 0, std::move(remark), "", ""});
+    if (records.empty()) return;
+    for (std::string& remark : scaled_peak_remarks(scene)) add_note(scene, {"", 0, 0, std::move(remark), "", ""});
 }
 
 } // namespace
@@ -229,6 +242,7 @@ Ready prepare(Scene given, Method method, Records records, const PrepareOptions&
     note_not_honoured(given, method == Method::finite_elements
                                  ? methods::fe | methods::reduced
                                  : methods::rigid | methods::flexible | methods::regressions);
+    note_records(given, *ready.pairs);
     ready.plan = make_effect_plan(given, method);
     ready.scene = called_for(ready.plan, given);
     if (method == Method::finite_elements) {

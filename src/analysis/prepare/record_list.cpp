@@ -356,11 +356,7 @@ RecordList records_of_list(const std::filesystem::path& list, const std::string&
     files.folder = folder_of(list);
     const CsvTable table = parse_csv(text);
     const std::vector<std::string>& columns = table.heading.cells;
-    for (const std::string& column : columns)
-        if (std::find(known.begin(), known.end(), column) == known.end())
-            throw refused(table.heading.number, fmt::format("unknown column \"{}\".", column), known_columns);
-    if (std::find(columns.begin(), columns.end(), "horizontal") == columns.end())
-        throw refused(table.heading.number, "there is no column horizontal.", known_columns);
+    records::check_list(list, table, known, {"horizontal"}, columns_of_a_list);
     for (const auto& [number, cells] : table.rows) {
         RecordFiles record;
         std::string event;

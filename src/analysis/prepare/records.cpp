@@ -1,12 +1,15 @@
 #include "analysis/prepare/records.hpp"
 
 #include "core/input_error.hpp"
+#include "core/units.hpp"
+#include "records/read/header.hpp"
 #include "records/read/read_record.hpp"
 #include "records/transform/transform.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace damslip {
 
@@ -108,6 +111,45 @@ std::vector<RecordPair> read_records(const Scene& scene, const EffectPlan& plan)
     }
     if (!wrong.empty()) throw InputError(wrong);
     return with_sequence(scene, std::move(pairs));
+}
+
+std::vector<std::string> component_remarks(const RecordPair& pair)
+{
+    using records::Component;
+    std::vector<std::string> remarks;
+    for (const RecordPair& part : pair.parts)
+        for (std::string& remark : component_remarks(part)) remarks.push_back(std::move(remark));
+    if (!pair.parts.empty()) return remarks;
+    const auto look_at = [&](const Record& record, Component against, const char* by_header, const char* taken) {
+        if (records::component_in(record.source.component) == against)
+            remarks.push_back(fmt::format("{}: {} by its header ({}), taken as {}.", record.source.file, by_header,
+                                          record.source.component, taken));
+    };
+    look_at(pair.horizontal, Component::vertical, "vertical", "horizontal");
+    if (pair.vertical) look_at(*pair.vertical, Component::horizontal, "horizontal", "vertical");
+    return remarks;
+}
+
+std::vector<std::string> scaled_peak_remarks(const Scene& scene)
+{
+    const Motion& motion = scene.motion;
+    std::vector<std::string> remarks;
+    if (!motion.scale_to_pga) return remarks;
+    std::map<double, std::vector<std::string>> names_of_factor;
+    if (!motion.sequence.empty()) names_of_factor[motion.scale].push_back("the sequence");
+    for (const RecordFiles& record : motion.records)
+        if (!in_sequence(scene, record.name))
+            names_of_factor[motion.scale * record.scale].push_back("\"" + record.name + "\"");
+    for (const auto& [factor, names] : names_of_factor) {
+        if (factor == 1.0) continue;
+        const double pga = *motion.scale_to_pga * factor;
+        const std::string others = names.size() > 1 ? fmt::format(" and {} more", names.size() - 1) : "";
+        remarks.push_back(
+            fmt::format("motion.scale_to_pga = {:.4g} m/s2 is followed by a factor of {:.4g} (motion.scale, "
+                        "motion.record.scale, --scale): the PGA of {}{} is {:.4g} m/s2 ({:.4g} g).",
+                        *motion.scale_to_pga, factor, names.front(), others, pga, pga / units::standard_gravity));
+    }
+    return remarks;
 }
 
 std::vector<int> polarities_of(const Scene& scene, std::optional<int> asked)

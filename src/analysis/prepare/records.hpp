@@ -23,6 +23,12 @@ std::size_t motion_count(const Scene& scene);
 /// Reads the scene's records, its sequence first; verticals only where the plan has vertical motion.
 std::vector<RecordPair> read_records(const Scene& scene, const EffectPlan& plan);
 
+/// What the headers of the files say against their use: a vertical component taken as horizontal, a horizontal one as vertical.
+std::vector<std::string> component_remarks(const RecordPair& pair);
+
+/// Where factors on records follow motion.scale_to_pga: the PGA that they make of it.
+std::vector<std::string> scaled_peak_remarks(const Scene& scene);
+
 /// The polarities that are run of each record: the one that is asked for, else motion.polarity, else +1 and -1. Everywhere
 /// in the program a polarity is the sign on the horizontal component as filed.
 std::vector<int> polarities_of(const Scene& scene, std::optional<int> asked = {});
@@ -44,7 +50,8 @@ std::vector<MotionName> motion_names(const Scene& scene, const std::vector<Recor
                                      std::optional<int> asked = {});
 
 /// Both components on one grid, scaled as scene and record say; of a sequence all its records on one grid, and
-/// motion.scale_to_pga is the largest peak of them. @param scale  on top of them
+/// motion.scale_to_pga is the largest peak of them. The factors motion.scale and, of a record alone, its own follow that peak.
+/// @param scale  on top of them
 /// @param polarity  the sign on the horizontal component as filed, one of polarities_of()
 GroundMotion ground_motion(const Scene& scene, const RecordPair& pair, double scale = 1.0, int polarity = 1);
 
