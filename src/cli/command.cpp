@@ -2,6 +2,7 @@
 
 #include "cli/verifier.hpp"
 #include "core/input_error.hpp"
+#include "core/inputs_kept.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "pages/report/json.hpp"
@@ -161,7 +162,13 @@ void add_sheet(CLI::App& sub, std::filesystem::path& target, const std::string& 
 std::function<std::string(const std::string&)> output_to(OutputPath kind, const std::string& flag)
 {
     return [kind, flag](const std::string& path) -> std::string {
-        if (auto problem = output_path_problem(path, kind, flag)) throw UsageError(std::move(*problem));
+        check_output(path, kind, flag);
+void check_output(const std::filesystem::path& path, OutputPath kind, const std::string& flag)
+{
+    if (auto problem = output_path_problem(path, kind, flag)) throw UsageError(std::move(*problem));
+    keep_from_inputs(path, kind, flag);
+}
+
         return {};
     };
 }
