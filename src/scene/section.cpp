@@ -284,13 +284,13 @@ void check_polygon(const Polyline& p, Findings& findings)
 Polyline polygon_by_dimensions(const SectionInput& in, Findings& findings)
 {
     const auto need = [&](const std::optional<double>& value, const char* key, const char* example) {
-        if (!value)
-            findings.wrong("section", fmt::format("section.{} is missing.", key),
+        if (!value && !findings.given(fmt::format("section.{}", key))) // one that is given and not allowed is reported
+            findings.wrong("section", fmt::format("section.{}_m is missing.", key),
                            "polygon_m, or height_m, base_m and crest_m",
-                           fmt::format("add  {} = {}  or a polygon_m to [section]", key, example));
+                           fmt::format("add  {}_m = {}  or a polygon_m to [section]", key, example));
         return value.has_value();
     };
-    const bool has_height = need(in.height, "height_m", "62.5"), has_base = need(in.base, "base_m", "45");
+    const bool has_height = need(in.height, "height", "62.5"), has_base = need(in.base, "base", "45");
     if (!has_height || !has_base) return {};
     const double h = *in.height, b = *in.base, crest = in.crest.value_or(0), neck = in.neck.value_or(0);
     const double batter_height = std::min(in.upstream_slope_height.value_or(h), h);
@@ -314,6 +314,12 @@ Polyline polygon_by_dimensions(const SectionInput& in, Findings& findings)
               fmt::format("the crest ends at x = {} m, downstream of the toe at section.base_m = {}.",
                           shortest(crest_to), shortest(b)),
               "widen the base, or lessen crest_m or upstream_slope");
+    if (in.upstream_slope_height && *in.upstream_slope_height > h * (1 + 1e-12))
+        wrong("upstream_slope_height",
+              fmt::format("section.upstream_slope_height_m = {} is above section.height_m = {}.",
+                          shortest(*in.upstream_slope_height), shortest(h)),
+              "upstream_slope_height_m is the height of the sloping part of the upstream face: lessen it, or leave it out for "
+              "a slope up to the crest");
     const double toe_y = -b * std::tan(in.base_inclination.value_or(0));
     if (neck < h && toe_y >= h - neck)
         wrong("base_inclination",
