@@ -67,6 +67,7 @@ void put_answer(Answer answer, const FeArguments& arguments, const Scene& scene,
     if (spectrum) {
         answer.set("response_spectrum", spectrum_json(*spectrum));
         answer += "\n" + spectrum_text(*spectrum);
+        answer.point("response spectrum", spectrum_sentence(*spectrum));
     }
     put_answer(answer, "--out DIR", streams);
     if (!arguments.reports()) return;

@@ -545,3 +545,4 @@ void write_screening(const std::filesystem::path& folder, const ScreenReportInpu
 }
 
 } // namespace damslip::pages
+    if (in.spectrum) out.point("response spectrum", spectrum_sentence(*in.spectrum));

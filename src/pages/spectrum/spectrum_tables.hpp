@@ -21,6 +21,8 @@ Table spectrum_height_table(const SpectrumDemand& row);
 
 nlohmann::ordered_json spectrum_json(const SpectrumLevel& level);
 std::string spectrum_text(const SpectrumLevel& level);
+/// The spectrum of the largest base shear in one sentence; empty without spectra.
+std::string spectrum_sentence(const SpectrumLevel& level);
 Section spectrum_section(const SpectrumLevel& level);
 
 } // namespace damslip::pages
