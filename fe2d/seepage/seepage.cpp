@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <set>
 
 namespace damslip::fe2d {
 
@@ -38,11 +39,12 @@ double surface_head(const std::optional<double>& level, double elevation)
     return std::max(level.value_or(elevation), elevation);
 }
 
-std::vector<NodeHead> boundary_heads(const Mesh& mesh, const UpliftState& state, const std::optional<DrainLine>& drains)
+/// @param drained  nodes that the drains hold at `drain_head`
+std::vector<NodeHead> boundary_heads(const Mesh& mesh, const UpliftState& state, const std::vector<int>& drained,
+                                     double drain_head)
 {
     std::vector<NodeHead> heads;
-    if (drains)
-        for (const int n : nodes_below(mesh, drains->distance, drains->depth)) heads.push_back({n, drains->head});
+    for (const int n : drained) heads.push_back({n, drain_head});
     for (const int n : with_mid_nodes(mesh, mesh.floor))
         heads.push_back({n, surface_head(state.reservoir_level, mesh.nodes[n].y)});
     for (const int n : with_mid_nodes(mesh, mesh.ground))
@@ -100,6 +102,32 @@ void fill_curtain(SeepageResult& result, const Curtain& curtain, const Permeabil
     result.flow_under_curtain = all - result.flow_through_curtain;
 }
 
+/// Drains take water and give none: at each of their nodes the head is theirs and water flows out, or it is lower and none
+/// does. An active set: nodes that would give water are let go, nodes whose head comes above the drains' are held, until the
+/// set stays, or is one that has been tried.
+DarcySolution solve_with_drains(const Mesh& mesh, const Permeability& permeability, const UpliftState& state,
+                                const std::vector<int>& nodes, double drain_head)
+{
+    constexpr double round_off = 1e-9; // of the water that passes the line, and of the head
+    std::vector<int> drained = nodes;
+    std::set<std::vector<int>> tried;
+    for (;;) {
+        DarcySolution field = solve_darcy(mesh, permeability, boundary_heads(mesh, state, drained, drain_head));
+        if (nodes.empty() || !field.solver.ok() || !tried.insert(drained).second) return field;
+        double passing = 0.0;
+        for (const int n : drained) passing += std::abs(field.inflow[n]);
+        std::vector<int> next;
+        for (const int n : nodes) {
+            const bool held = std::binary_search(drained.begin(), drained.end(), n);
+            if (held ? field.inflow[n] <= round_off * passing
+                     : field.head[n] > drain_head + round_off * std::max(1.0, std::abs(drain_head)))
+                next.push_back(n);
+        }
+        if (next == drained) return field;
+        drained = std::move(next);
+    }
+}
+
 Permeability permeability_of(const Scene& scene, const UpliftState& state)
 {
     Permeability k;
@@ -144,7 +172,9 @@ SeepageResult solve_seepage_on(Mesh mesh, const Scene& scene, const UpliftState&
     SeepageResult result;
     result.mesh = std::move(mesh);
     result.unit_weight = water_unit_weight(scene);
-    result.field = solve_darcy(result.mesh, permeability, boundary_heads(result.mesh, state, drains));
+    const std::vector<int> drain_nodes =
+        drains ? nodes_below(result.mesh, drains->distance, drains->depth) : std::vector<int>{}; // ascending
+    result.field = solve_with_drains(result.mesh, permeability, state, drain_nodes, drains ? drains->head : 0.0);
     if (!result.field.solver.ok()) {
         result.notes.push_back({NoteKind::seepage_failed, {text_of(result.field.solver.note())}});
         return result;
@@ -153,7 +183,7 @@ SeepageResult solve_seepage_on(Mesh mesh, const Scene& scene, const UpliftState&
     result.inflow = total(result.field.inflow, with_mid_nodes(result.mesh, result.mesh.floor));
     result.outflow = -total(result.field.inflow, with_mid_nodes(result.mesh, result.mesh.ground));
     if (drains) {
-        result.drain_flow = -total(result.field.inflow, nodes_below(result.mesh, drains->distance, drains->depth));
+        result.drain_flow = -total(result.field.inflow, drain_nodes);
         result.notes.push_back({NoteKind::drain_line, {drains->distance, drains->depth, drains->head}});
     }
     if (curtain_changes_flow(scene)) fill_curtain(result, *scene.curtain, permeability);

@@ -1,5 +1,6 @@
 #include "core/input_error.hpp"
 #include "core/units.hpp"
+#include "scene/drains.hpp"
 #include "scene/section.hpp"
 #include "scene/uplift_models.hpp"
 #include "sliding/block/yield.hpp"
@@ -210,7 +211,7 @@ std::vector<Combination> combinations(const Scene& scene, const PeakGround& peak
         return given;
     }
     std::vector<Combination> out{named("usual", CombinationKind::usual)};
-    if (scene.drains) {
+    if (drains_lower_uplift(scene)) {
         out.push_back(named("drains ineffective", CombinationKind::unusual));
         out.back().drains_effective = false;
     }

@@ -125,7 +125,7 @@ struct PeakGround {
 };
 
 /// The scene's combinations; if it has none, made from it:
-/// 1. usual: the scene's levels, no ice; 2. unusual, drains ineffective (with drains); 3. unusual, ice (with ice);
+/// 1. usual: the scene's levels, no ice; 2. unusual, drains ineffective (with drains that lower the uplift); 3. unusual, ice (with ice);
 /// 4. extreme, seismic: k_h and k_v are the shares criteria.pga_fraction (1) and pga_v_fraction (0) of the peaks, with ice
 /// if there is any (as in the yield acceleration); left out for a_h = a_v = 0;
 /// 5. post-seismic: residual strength, damaged curtain, ineffective drains, ice.

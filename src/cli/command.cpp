@@ -2,6 +2,7 @@
 
 #include "cli/verifier.hpp"
 #include "core/input_error.hpp"
+#include "core/inputs_kept.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "pages/report/json.hpp"
@@ -33,8 +34,12 @@ void put_answer(pages::Answer answer, const std::string& files, const Streams& s
     } else if (streams.quiet) {
         out << answer.line();
     } else {
-        for (const std::string& line : streams.held ? *streams.held : std::vector<std::string>{})
-            answer.note_in_brief(line.starts_with("note: ") ? line.substr(6) : line);
+        for (const std::string& line : streams.held ? *streams.held : std::vector<std::string>{}) {
+            std::string_view text = line;
+            for (const std::string_view kind : {"note: ", "warning: "}) // an answer's notes are notes
+                if (text.starts_with(kind)) text.remove_prefix(kind.size());
+            answer.note_in_brief(std::string(text));
+        }
         if (streams.held) streams.held->clear();
         out << answer.brief(files);
     }
@@ -151,10 +156,16 @@ void add_sheet(CLI::App& sub, std::filesystem::path& target, const std::string& 
     });
 }
 
+void check_output(const std::filesystem::path& path, OutputPath kind, const std::string& flag)
+{
+    if (auto problem = output_path_problem(path, kind, flag)) throw UsageError(std::move(*problem));
+    keep_from_inputs(path, kind, flag);
+}
+
 std::function<std::string(const std::string&)> output_to(OutputPath kind, const std::string& flag)
 {
     return [kind, flag](const std::string& path) -> std::string {
-        if (auto problem = output_path_problem(path, kind, flag)) throw UsageError(std::move(*problem));
+        check_output(path, kind, flag);
         return {};
     };
 }

@@ -87,6 +87,10 @@ CLI::Option* add_out(CLI::App& sub, std::filesystem::path& target, OutputPath ki
 void add_pdf(CLI::App& sub, std::filesystem::path& target);
 void add_sheet(CLI::App& sub, std::filesystem::path& target, const std::string& help); ///< --sheet, a workbook
 
+/// What would keep output from being written there is refused, and so will be an input that is this file.
+/// @param flag  how the user gave it: "--out" @throws UsageError
+void check_output(const std::filesystem::path& path, OutputPath kind, const std::string& flag);
+
 /// Check of an option that names output: what would fail after minutes is said before anything begins.
 /// @throws UsageError, from the check
 std::function<std::string(const std::string&)> output_to(OutputPath kind, const std::string& flag);

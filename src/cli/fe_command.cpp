@@ -67,6 +67,7 @@ void put_answer(Answer answer, const FeArguments& arguments, const Scene& scene,
     if (spectrum) {
         answer.set("response_spectrum", spectrum_json(*spectrum));
         answer += "\n" + spectrum_text(*spectrum);
+        answer.point("response spectrum", spectrum_sentence(*spectrum));
     }
     put_answer(answer, "--out DIR", streams);
     if (!arguments.reports()) return;
@@ -154,7 +155,7 @@ int run_tied(const FeArguments& arguments, const Ready& ready, const SpectrumLev
     for (const fe2d::StaticStage& s : all.statics().stages) fields.add(s.name, 0.0, s.displacement, s.elastic);
     std::vector<TiedRun> runs = all.run([&](TiedRun& r) {
         if (r.history.displacement.size())
-            fields.add(r.record + ", end", r.history.rows.empty() ? 0.0 : r.history.rows.back().time,
+            fields.add(r.label() + ", end", r.history.rows.empty() ? 0.0 : r.history.rows.back().time,
                        r.history.displacement, r.history.displacement);
         if (!arguments.out.empty()) write_tied_history(arguments.out, ready.scene, ready.plan.scene_hash, r);
     });
@@ -170,7 +171,7 @@ int run_tied(const FeArguments& arguments, const Ready& ready, const SpectrumLev
     put_answer(
         tied_answer(frame, all.statics(), runs), arguments, ready.scene, spectrum, fields,
         [&] { return tied_page(frame, all.statics(), runs); }, streams);
-    const bool whole = runs.size() == ready.records().size() &&
+    const bool whole = runs.size() == all.whole() &&
                        std::all_of(runs.begin(), runs.end(),
                                    [](const TiedRun& r) { return r.history.status == fe2d::TiedRunStatus::complete; });
     return whole ? exit_ok : exit_no_answer;

@@ -142,7 +142,7 @@ void write_files(const std::filesystem::path& out, const FragilityView& view, co
     write_samples(out / "samples.csv", view, comments);
     write_file(out / "fragility.csv", csv(fragility_table(view), comments));
     if (const Table rates = rate_part_table(view); !rates.rows.empty())
-        write_file(out / "hazard.csv", csv(rates, comments));
+        write_file(out / "hazard_shares.csv", csv(rates, comments));
     answer.write(out, {});
     write_file(out / "report.html", page_html(fragility_page(view)));
     if (const std::string usace = fragility_usace(view); !usace.empty()) write_file(out / "usace.json", usace);
@@ -292,7 +292,7 @@ void fragility_flags(CLI::App& sub, FragilityArguments& a)
         ->capture_default_str();
     sub.add_flag("--allow-scaling", a.allow_scaling, "records may be scaled beyond suite.max_scale; they are listed");
     add_out(sub, a.out, OutputPath::folder,
-            "folder for samples.csv, fragility.csv, hazard.csv, summary.json, report.html, fragility.xml "
+            "folder for samples.csv, fragility.csv, hazard_shares.csv, summary.json, report.html, fragility.xml "
             "(OpenQuake) and a database of the runs for --resume",
             "-o,--out");
     add_pdf(sub, a.pdf);

@@ -184,7 +184,15 @@ int draw(const DrawArguments& arguments, const Streams& streams)
 void draw_flags(CLI::App& sub, DrawArguments& a)
 {
     add_scene(sub, a.inputs);
-    add_out(sub, a.out, OutputPath::file, "SVG file; without it the drawing goes to standard output", "-o,--out");
+    add_out(sub, a.out, OutputPath::file, "SVG file (.svg); without it the drawing goes to standard output", "-o,--out")
+        ->check([](const std::string& path) -> std::string {
+            const std::string end = std::filesystem::path(path).extension().string();
+            if (!end.empty() && end != ".svg" && end != ".SVG") // a device or a pipe has none
+                refuse_usage(fmt::format("--out {} is no SVG file.", path), "a file that ends in .svg",
+                             "write  " + std::filesystem::path(path).replace_extension(".svg").string() +
+                                 " , and convert it with another program");
+            return {};
+        });
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "cli/verifier.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
+#include "core/inputs_kept.hpp"
 #include "core/text.hpp"
 #include "fe2d/solver/linear_solver.hpp"
 #include "scene/read.hpp"
@@ -94,6 +95,7 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& raw_out
     const Form form = json ? Form::json : Form::text;
     try {
         check_names(arguments);
+        const InputsKept inputs_kept;
         const Invocation invocation = parse_arguments(arguments, rows);
         prepare_farewell(form);
         const InterruptGuard interrupt;

@@ -216,7 +216,7 @@ void check_pdf(const std::filesystem::path& target)
         refuse_usage("--pdf " + target.string() + ": there is no Chromium to print with.",
                      fmt::format("one of {} on the PATH", fmt::join(browser_names, ", ")),
                      "apt install chromium, or write the report (--out) and print it from a browser");
-    if (auto problem = output_path_problem(target, OutputPath::file, "--pdf")) throw UsageError(std::move(*problem));
+    check_output(target, OutputPath::file, "--pdf");
 }
 
 void print_pdf(const std::string& html, const std::filesystem::path& target)
@@ -255,7 +255,7 @@ void check_sheet(const std::filesystem::path& target)
                      fmt::format("one of {} on the PATH, or a file that ends in .xlsx", fmt::join(office_names, ", ")),
                      "apt install libreoffice-calc-nogui, or write  " + std::filesystem::path(target).replace_extension(".xlsx").string() +
                          " , which LibreOffice opens");
-    if (auto problem = output_path_problem(target, OutputPath::file, "--sheet")) throw UsageError(std::move(*problem));
+    check_output(target, OutputPath::file, "--sheet");
 }
 
 void write_sheet(const std::filesystem::path& target, const std::function<void(const std::filesystem::path&)>& write_xlsx)

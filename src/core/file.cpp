@@ -1,6 +1,7 @@
 #include "core/file.hpp"
 
 #include "core/input_error.hpp"
+#include "core/inputs_kept.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +15,10 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <istream>
+#include <mutex>
 #include <openssl/evp.h>
+#include <set>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -22,6 +26,115 @@
 namespace damslip {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// What makes two names the same file.
+using FileIdentity = std::pair<dev_t, ino_t>;
+
+std::optional<FileIdentity> identity_of(const fs::path& path)
+{
+    struct stat status{};
+    if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+    return FileIdentity{status.st_dev, status.st_ino};
+}
+
+/// Of the commands on their way, see InputsKept.
+struct KnownFiles {
+    struct Output {
+        fs::path path, folder; ///< folder: where the file or others beside it go
+        std::string named;
+        bool is_folder = false;
+    };
+    std::mutex mutex;
+    int commands = 0;
+    std::vector<Output> outputs;
+    std::set<FileIdentity> inputs, own;
+};
+
+KnownFiles& known_files()
+{
+    static KnownFiles known;
+    return known;
+}
+
+fs::path without_links(const fs::path& path)
+{
+    std::error_code error;
+    const fs::path there = fs::weakly_canonical(path, error);
+    return error ? path : there;
+}
+
+/// @throws InputError for a file that output goes to
+void remember_input(const fs::path& path)
+{
+    KnownFiles& known = known_files();
+    const std::lock_guard lock(known.mutex);
+    if (known.commands == 0) return;
+    const std::optional<FileIdentity> file = identity_of(path);
+    if (!file || known.own.contains(*file) || (!cache_folder().empty() && path.parent_path() == cache_folder())) return;
+    for (const KnownFiles::Output& output : known.outputs)
+        if (!output.is_folder && identity_of(output.path) == file)
+            throw InputError(Diagnostic{path.string(), 0, 0,
+                                        fmt::format("{} {} is this file, which is read here: it would be overwritten.",
+                                                    output.named, output.path.string()),
+                                        "an output that is no input of the same command",
+                                        fmt::format("choose another name for {}", output.named)});
+    known.inputs.insert(*file);
+}
+
+/// The file is an input, in a folder that output goes to.
+bool overwrites_input(const fs::path& target)
+{
+    KnownFiles& known = known_files();
+    const std::lock_guard lock(known.mutex);
+    if (known.commands == 0) return false;
+    const std::optional<FileIdentity> file = identity_of(target);
+    if (!file || known.own.contains(*file) || !known.inputs.contains(*file)) return false;
+    const fs::path folder = without_links(target).parent_path();
+    return std::any_of(known.outputs.begin(), known.outputs.end(),
+                       [&](const KnownFiles::Output& output) { return output.folder == folder; });
+}
+
+void remember_own(const fs::path& written)
+{
+    KnownFiles& known = known_files();
+    const std::lock_guard lock(known.mutex);
+    if (known.commands == 0) return;
+    if (const std::optional<FileIdentity> file = identity_of(written)) known.own.insert(*file);
+}
+
+} // namespace
+
+InputsKept::InputsKept()
+{
+    KnownFiles& known = known_files();
+    const std::lock_guard lock(known.mutex);
+    ++known.commands;
+}
+
+InputsKept::~InputsKept()
+{
+    KnownFiles& known = known_files();
+    const std::lock_guard lock(known.mutex);
+    if (--known.commands > 0) return;
+    known.outputs.clear();
+    known.inputs.clear();
+    known.own.clear();
+}
+
+void keep_from_inputs(const fs::path& output, OutputPath kind, const std::string& named)
+{
+    KnownFiles& known = known_files();
+    const std::lock_guard lock(known.mutex);
+    if (known.commands == 0) return;
+    const fs::path there = without_links(output);
+    const bool is_folder = kind == OutputPath::folder;
+    known.outputs.push_back({output, is_folder && !there.has_filename() ? there.parent_path() // "out/"
+                                     : is_folder                        ? there
+                                                                        : there.parent_path(),
+                             named, is_folder});
+}
 
 std::string read_file(const fs::path& path, std::uintmax_t max_bytes, const LookAtStart& look)
 {
@@ -34,6 +147,7 @@ std::string read_file(const fs::path& path, std::uintmax_t max_bytes, const Look
         refuse(path, "this is a folder, not a file.", "a readable file", "name a file inside it");
     std::ifstream in(path, std::ios::binary);
     if (!in) refuse(path, "the file cannot be opened.", "a readable file", "check its read permission");
+    remember_input(path);
     const auto check = [&](std::uintmax_t size) {
         if (size > max_bytes)
             refuse(path, fmt::format("the file is larger than {} MB.", max_bytes >> 20), "a readable file",
@@ -143,6 +257,8 @@ FileWriter::FileWriter(const fs::path& path) : named_(path)
         error.clear();
         if (target_.has_parent_path()) fs::create_directories(target_.parent_path(), error);
         if (error) refuse_write(named_, error.message());
+        if (overwrites_input(target_))
+            refuse_write(named_, "it is an input of this command.", "a folder that holds no input of the same name");
         part_ = target_.parent_path() /
                 fmt::format(".damslip.{}.{}.part", ::getpid(), sha256(target_.filename().string()).substr(0, 8));
     }
@@ -172,7 +288,10 @@ void FileWriter::finish()
         error.assign(errno, std::generic_category());
     else if (!part_.empty())
         fs::rename(part_, target_, error);
-    if (!error) return;
+    if (!error) {
+        if (!part_.empty()) remember_own(target_);
+        return;
+    }
     const std::string why = error.message();
     if (!part_.empty()) fs::remove(part_, error);
     refuse_write(named_, why);
@@ -180,6 +299,8 @@ void FileWriter::finish()
 
 void write_file(const fs::path& path, std::string_view content)
 {
+    std::error_code error; // a resolved scene that is run again into its own folder has the same bytes
+    if (overwrites_input(path) && fs::file_size(path, error) == content.size() && !error && read_file(path) == content) return;
     FileWriter file(path);
     file.write(content);
     file.finish();

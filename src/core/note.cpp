@@ -82,7 +82,7 @@ constexpr auto sentences = std::to_array<Sentence>({
      "SLAMMER's trapezoid scheme: second order in the time step, no run-out; the default scheme is exact."},
     {trapezoid_still_sliding,
      "Still sliding at the record's end, where this scheme stops: the slip is a lower bound."},
-    {turned_over, "It turns by 90 degrees at {} s."},
+    {turned_over, "It turns by 90 degrees at {:.4g} s."},
     {still_moving, "Still moving {} s after the record's end: the slip is a lower bound."},
     {jammed_corner,
      "Friction holds the corner that slides however hard it is driven (Painlevé's paradox) at {} s."},

@@ -63,6 +63,9 @@ void check_combinations(const Scene& s, Findings& f);
 
 /// Keys of an imported mesh against those of the program's own; the file itself is read where it is meshed.
 void check_mesh_file(const Scene& s, Findings& f, FileCheck files);
+/// Keys that are given, say something else than their default, and change nothing: a resolved scene, which has every key, is
+/// no reason for a note.
+void note_unread(const Scene& s, Findings& f);
 
 /// Anchors in their joints, and what they cannot go with.
 void check_anchors(const Scene& s, Findings& f);

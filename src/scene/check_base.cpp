@@ -42,6 +42,7 @@ void check_consistency(const Scene& scene, Findings& findings, FileCheck files)
     checks::check_joint_laws(scene, findings);
     checks::check_opening_water(scene, findings);
     checks::check_mesh_file(scene, findings, files);
+    checks::note_unread(scene, findings);
 }
 
 } // namespace damslip

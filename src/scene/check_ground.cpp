@@ -97,6 +97,10 @@ void check_rock(const Scene& s, Findings& f)
     }
     if (rock_radiates(s)) {
         check_radiating_rock(s, f);
+        if (f.given("foundation.density") && !(s.foundation->material.density > 0.0))
+            f.wrong("foundation.density", "foundation.density_kg_m3 = 0 with foundation.mass = \"with-mass\".",
+                    "the density of the rock: 2500 ... 2900 kg/m3 is usual; left out it is 2650 where rock radiates",
+                    "delete density_kg_m3, or write  mass = \"massless\"  for rock without inertia");
         return;
     }
     if (!(s.foundation->material.density > 0.0))

@@ -157,6 +157,32 @@ void check_gate(const Scene& s, Findings& f)
     }
 }
 
+/// Tailwater stands on the crest only where the reservoir flows over it (a drowned weir); ice pushes against the face or the gates.
+void check_other_levels(const Scene& s, Findings& f)
+{
+    if (s.section.rock_slope) return;
+    const bool flows_over = s.reservoir && s.reservoir->overtopped;
+    const double upstream = upstream_face(s.section).back().y, downstream = downstream_face(s.section).back().y;
+    const auto above = [&](const std::string& key, double level, double crest, const std::string& expected) {
+        if (level > crest * (1 + 1e-12))
+            f.wrong(key,
+                    fmt::format("{}_m = {} is {} m above the crest at {} m.", key, shortest(level), six_digits(level - crest),
+                                shortest(crest)),
+                    expected, "check datum and unit: levels are measured from the heel");
+    };
+    const std::string of_tailwater = fmt::format("a tailwater up to the crest, {} m; higher only with  overtopped = true  in [reservoir]", shortest(downstream));
+    if (s.tailwater && !flows_over) above("tailwater.level", s.tailwater->level, downstream, of_tailwater);
+    for (std::size_t i = 0; i < s.combinations.size(); ++i)
+        if (s.combinations[i].tailwater_level && !flows_over)
+            above(fmt::format("combination[{}].tailwater_level", i + 1), *s.combinations[i].tailwater_level, downstream,
+                  of_tailwater);
+    if (s.ice && f.given("ice.level"))
+        above("ice.level", s.ice->level, s.gate       ? std::max(upstream, s.gate->top)
+              : flows_over ? std::max(upstream, s.reservoir->level)
+                           : upstream,
+              "ice at the water surface, on the face of the dam");
+}
+
 /// What presses up under the base is never assumed away: a dry base is written down.
 void check_uplift_is_said(const Scene& s, Findings& f)
 {
@@ -179,6 +205,7 @@ void check_water(const Scene& s, Findings& f)
                 "loaded twice.",
                 "one of the two: the water in the rock brings the pressure on its surface with it",
                 "delete floor_pressure");
+    check_other_levels(s, f);
     if (s.silt && s.silt->level > crest_level(s.section))
         f.wrong("silt.level",
                 fmt::format("{} is above the crest at {} m.", value("silt.level_m", s.silt->level),

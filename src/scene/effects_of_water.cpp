@@ -1,4 +1,5 @@
 #include "scene/added_mass_formulas.hpp"
+#include "scene/drains.hpp"
 #include "scene/effect_plan.hpp"
 #include "scene/findings.hpp"
 #include "scene/joint_bond.hpp"
@@ -233,6 +234,15 @@ Decision decide_base_crack(const Scene& s, Method method)
             "crack and uplift iterated per state"};
 }
 
+/// Drains beside an uplift that does not read them change nothing, and stay in the scene for variants whose uplift does.
+Decision decide_drains(const Scene& s, Method method)
+{
+    if (!s.drains) return {false, "no [drains]", ""};
+    if (method == Method::finite_elements ? drains_are_read(s) : drains_lower_uplift(s))
+        return {true, "[drains] is given", "part of the pressure profile"};
+    return {false, s.uplift ? fmt::format("not read with uplift.model = \"{}\"", word(s.uplift->model)) : "no [uplift]", ""};
+}
+
 RemovalAnswer without_seepage(Scene s, const SeepagePoints&)
 {
     if (s.curtain && s.curtain->intact) {
@@ -291,10 +301,8 @@ std::vector<EffectRow> uplift_effects()
          .part_of = {Effect::uplift},
          .named = Effect::base_crack},
         {.name = "drains",
-         .decide = [](const Scene& s,
-                      Method) { return decide_table(s.drains.has_value(), "drains", "part of the pressure profile"); },
+         .decide = decide_drains,
          .answer = without_drains,
-         .leave_out = [](Scene& s, const EffectPlan&) { s.drains.reset(); },
          .part_of = {Effect::uplift},
          .named = Effect::drains},
     };

@@ -1,5 +1,6 @@
 #include "scene/joint_bond.hpp"
 
+#include "scene/drains.hpp"
 #include "scene/uplift_models.hpp"
 
 #include <algorithm>
@@ -92,8 +93,7 @@ const std::string& word(OpeningWater rule)
 bool drains_shear_off(const Scene& scene)
 {
     if (!scene.uplift || !scene.drains || !scene.drains->lost_at_slip) return false;
-    const UpliftModel model = scene.uplift->model;
-    return model == UpliftModel::drains || model == UpliftModel::seepage || uplift_row(model).by_drains;
+    return reads_drains(scene.uplift->model);
 }
 
 bool base_water_changes(const Scene& scene)

@@ -274,7 +274,10 @@ const std::array left_out{
     LeftOut{regressions, "contact.kinetic_friction_ratio", [](const Scene& s) { return s.contact.rate.active(); },
             nullptr},
     LeftOut{regressions, "uplift.opening",
-            [](const Scene& s) { return s.uplift && !follows_opening(s, OpeningWater::unchanged); }, nullptr},
+            [](const Scene& s) {
+                return s.uplift && s.uplift->model != UpliftModel::none && !follows_opening(s, OpeningWater::unchanged);
+            },
+            nullptr},
     LeftOut{regressions, "drains.lost_at_slip_m",
             [](const Scene& s) { return s.drains && s.drains->lost_at_slip.has_value(); }, nullptr},
 };

@@ -291,6 +291,8 @@ bool all_given(std::initializer_list<std::tuple<std::optional<double>, const cha
     for (const auto& [value, key, example] : keys) {
         if (value) continue;
         all = false;
+        const std::string_view written = key; // "height_m" of the key height
+        if (findings.given(fmt::format("section.{}", written.substr(0, written.rfind('_'))))) continue; // not allowed: reported
         findings.wrong("section", fmt::format("section.{} is missing.", key), expected,
                        fmt::format(fmt::runtime(fix), key, example));
     }
@@ -324,6 +326,12 @@ Polyline polygon_by_dimensions(const SectionInput& in, Findings& findings)
               fmt::format("the crest ends at x = {} m, downstream of the toe at section.base_m = {}.",
                           shortest(crest_to), shortest(b)),
               "widen the base, or lessen crest_m or upstream_slope");
+    if (in.upstream_slope_height && *in.upstream_slope_height > h * (1 + 1e-12))
+        wrong("upstream_slope_height",
+              fmt::format("section.upstream_slope_height_m = {} is above section.height_m = {}.",
+                          shortest(*in.upstream_slope_height), shortest(h)),
+              "upstream_slope_height_m is the height of the sloping part of the upstream face: lessen it, or leave it out for "
+              "a slope up to the crest");
     const double toe_y = -b * std::tan(in.base_inclination.value_or(0));
     if (neck < h && toe_y >= h - neck)
         wrong("base_inclination",

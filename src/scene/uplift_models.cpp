@@ -1,5 +1,6 @@
 #include "scene/uplift_models.hpp"
 
+#include "scene/drains.hpp"
 #include "scene/findings.hpp"
 
 namespace damslip {
@@ -32,6 +33,11 @@ std::vector<UpliftRow> named_uplift_models()
 const UpliftRow& uplift_row(UpliftModel model)
 {
     return uplift_rows()[std::size_t(model)];
+}
+
+bool reads_drains(UpliftModel model)
+{
+    return model == UpliftModel::drains || model == UpliftModel::seepage || uplift_row(model).by_drains;
 }
 
 const char* word(UpliftModel model)

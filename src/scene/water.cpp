@@ -1,6 +1,8 @@
 #include "scene/water.hpp"
 
+#include "scene/drains.hpp"
 #include "scene/section.hpp"
+#include "scene/uplift_models.hpp"
 
 #include <algorithm>
 
@@ -65,6 +67,39 @@ bool curtain_changes_stiffness(const Scene& scene)
 bool curtain_changes_flow(const Scene& scene)
 {
     return scene.curtain && scene.curtain->intact && scene.curtain->permeability != rock_permeability(scene);
+}
+
+namespace {
+
+bool seeps_through_rock(const Scene& scene)
+{
+    return scene.stages.pore_pressure != PorePressure::none && scene.foundation.has_value();
+}
+
+} // namespace
+
+bool drains_lower_uplift(const Scene& scene)
+{
+    return scene.drains && ((scene.uplift && reads_drains(scene.uplift->model)) ||
+                            std::any_of(scene.seams.begin(), scene.seams.end(),
+                                        [](const Seam& seam) { return seam.uplift == UpliftModel::drains; }));
+}
+
+bool drains_are_read(const Scene& scene)
+{
+    return drains_lower_uplift(scene) ||
+           (scene.drains && (seeps_through_rock(scene) ||
+                             (scene.uplift && scene.uplift->water.opening == OpeningWater::reynolds)));
+}
+
+bool curtain_is_read(const Scene& scene, bool depth_given)
+{
+    if (!scene.curtain) return false;
+    const bool measures_rock = scene.foundation && !depth_given && scene.foundation->depth == 2 * scene.curtain->depth;
+    const bool measures_drains = scene.drains && !scene.drains->depth && drains_lower_uplift(scene);
+    const UpliftModel model = scene.uplift ? scene.uplift->model : UpliftModel::none;
+    return model == UpliftModel::curtain || model == UpliftModel::seepage || curtain_changes_stiffness(scene) ||
+           seeps_through_rock(scene) || measures_rock || measures_drains;
 }
 
 } // namespace damslip

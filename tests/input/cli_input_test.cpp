@@ -127,4 +127,71 @@ TEST(CliInput, ManualPageOfAnUnknownCommand)
     EXPECT_EQ(run({"man", "record", "info"}).code, 0);
 }
 
+class Overwriting : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        std::filesystem::create_directories(folder);
+        std::ofstream(folder / "dam.toml") << dry_block << "[[motion.record]]\nhorizontal = \"h.csv\"\n";
+        std::ofstream(folder / "h.csv") << "time_s,accel_m_s2\n0,0\n0.1,2\n0.2,-2\n0.3,0\n";
+        std::filesystem::create_symlink(folder / "dam.toml", folder / "link.svg");
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+    std::string in(const std::string& name) const { return (folder / name).string(); }
+    std::string text(const std::string& name) const
+    {
+        std::ifstream file(folder / name);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("damslip_overwriting_" + std::to_string(::getpid()));
+};
+
+// No output replaces what the same command reads, by whatever name.
+TEST_F(Overwriting, IsRefusedForEveryInput)
+{
+    const std::string scene = text("dam.toml"), record = text("h.csv");
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"sweep", in("dam.toml"), "--out", in("dam.toml")},
+          {"sweep", in("dam.toml"), "--out", in("h.csv")},
+          {"draw", in("dam.toml"), "--out", in("link.svg")},
+          {"mesh", in("dam.toml"), "--out", in("dam.toml")},
+          {"explain", in("dam.toml"), "--ablate", "--report", in("h.csv")},
+          {"record", "convert", in("h.csv"), "--out", in("h.csv")},
+          {"record", "scale", in("h.csv"), "--factor", "2", "--out", in("./h.csv")},
+          {"record", "baseline", in("h.csv"), "--out", in("h.csv")}}) {
+        const Answer answer = run(words);
+        EXPECT_EQ(answer.code, 3) << words.front() << "\n" << answer.talk;
+        EXPECT_NE(answer.talk.find("is this file, which is read here: it would be overwritten."), std::string::npos)
+            << words.front() << "\n" << answer.talk;
+        EXPECT_EQ(text("dam.toml"), scene) << words.front();
+        EXPECT_EQ(text("h.csv"), record) << words.front();
+    }
+    EXPECT_EQ(run({"record", "scale", in("h.csv"), "--factor", "2", "--out", in("twice.csv")}).code, 0);
+    EXPECT_EQ(run({"record", "scale", in("h.csv"), "--factor", "2", "--out", in("twice.csv")}).code, 0); // its own, earlier
+    EXPECT_EQ(run({"record", "convert", in("twice.csv"), "--out", in("h.at2")}).code, 0);
+}
+
+// In a folder, too: an input whose name an output would have stays as it is.
+TEST_F(Overwriting, IsRefusedInAFolder)
+{
+    std::ofstream(folder / "scene.resolved.toml") << text("dam.toml");
+    const std::string scene = text("scene.resolved.toml");
+    const Answer answer = run({"screen", in("scene.resolved.toml"), "--out", folder.string()});
+    EXPECT_EQ(answer.code, 3);
+    EXPECT_NE(answer.talk.find("it is an input of this command."), std::string::npos) << answer.talk;
+    EXPECT_EQ(text("scene.resolved.toml"), scene);
+    EXPECT_EQ(run({"screen", in("dam.toml"), "--out", in("results")}).code, 0);
+    EXPECT_EQ(run({"screen", in("results/scene.resolved.toml"), "--out", in("results")}).code, 0); // the same bytes
+}
+
+TEST_F(Overwriting, ADrawingIsSvg)
+{
+    const Answer answer = run({"draw", in("dam.toml"), "--out", in("dam.png")});
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_NE(answer.talk.find("dam.png is no SVG file."), std::string::npos) << answer.talk;
+    EXPECT_EQ(run({"draw", in("dam.toml"), "--out", in("dam.svg")}).code, 0);
+}
+
 } // namespace

@@ -90,6 +90,19 @@ TEST(SceneInput, AllErrorsAtOnceInTheOrderOfTheFile)
     EXPECT_LT(text.find(":2:12"), text.find(":8:2"));
 }
 
+// A dimension that is refused is not missing as well; a slope higher than the dam is no dam.
+TEST(SceneInput, DimensionsOfTheSection)
+{
+    const std::string negative = message(with("height_m = 62.5", "height_m = -30"));
+    EXPECT_SAYS(negative, "section.height_m = -30 is not allowed.");
+    EXPECT_FALSE(has(negative, "is missing")) << negative;
+    EXPECT_SAYS(message(with("height_m = 62.5\n", "")), "section.height_m is missing.");
+    EXPECT_SAYS(message(with("crest_m = 12", "crest_m = 12\nupstream_slope = 0.1\nupstream_slope_height_m = 70")),
+                "section.upstream_slope_height_m = 70 is above section.height_m = 62.5.");
+    EXPECT_EQ(message(with("crest_m = 12", "crest_m = 12\nupstream_slope = 0.1\nupstream_slope_height_m = 62.5")),
+              "(accepted)");
+}
+
 TEST(SceneInput, MissingRequiredKeys)
 {
     const std::string text = message("[section]\nheight_m = 3\nbase_m = 2\n[dam]\n");

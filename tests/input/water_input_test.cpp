@@ -1,8 +1,12 @@
 // Keys of acoustic water that contradict each other.
 #include "core/input_error.hpp"
+#include "scene/effect_plan.hpp"
+#include "scene/keys.hpp"
+#include "scene/plausible.hpp"
 #include "scene/read.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/write.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <gtest/gtest.h>
 
@@ -162,6 +166,125 @@ TEST(WaterInput, PresetTakesTheSourcesBoundaries)
         parse_scene(std::string(wet_scene) + "far_end = \"absorbing\"\n" + preset, "dam.toml", FileCheck::skip);
     EXPECT_EQ(own.reservoir->far_end, FarEnd::absorbing);
     EXPECT_DOUBLE_EQ(own.reservoir->length, 62.5);
+}
+
+/// Notes of a dam 30 m high with water, each on a line.
+std::string notes_of_dam(const std::string& more)
+{
+    std::string all;
+    for (const Diagnostic& note :
+         parse_scene("section = { height_m = 30, base_m = 24, crest_m = 4 }\ndam = { density_kg_m3 = 2400 }\n"
+                     "contact = { friction = 0.8 }\n" +
+                         more,
+                     "dam.toml", FileCheck::skip)
+             .notes)
+        all += note_text(note) + "\n";
+    return all;
+}
+
+// What is given and changes nothing is noted, once, with what reads it; its default, as a resolved scene writes it, is not.
+TEST(WaterInput, WhatNothingReadsIsNoted)
+{
+    const std::string water = "reservoir = { level_m = 27, model = \"added-mass\"", linear = "uplift = { model = \"linear\" }\n",
+                      drains = "drains = { distance_m = 4, efficiency = 0.67 }\n";
+    EXPECT_EQ(notes_of_dam(water + " }\n" + linear + drains),
+              "dam.toml:6: [drains] is not read with uplift.model = \"linear\". Usual: model = \"drains\" or \"seepage\", the "
+              "models that read it. Write  model = \"drains\"  in [uplift], or delete [drains].\n");
+    EXPECT_EQ(notes_of_dam(water + " }\nuplift = { model = \"drains\" }\n" + drains), "");
+    EXPECT_EQ(notes_of_dam(water + " }\nuplift = { model = \"seepage\" }\n" + drains), "");
+    const std::string curtain = "curtain = { distance_m = 2 }\n";
+    EXPECT_NE(notes_of_dam(water + " }\n" + linear + curtain).find("[curtain] is not read with uplift.model = \"linear\"."),
+              std::string::npos);
+    EXPECT_EQ(notes_of_dam(water + " }\nuplift = { model = \"curtain\" }\n" + curtain), "");
+    EXPECT_NE(notes_of_dam(water + ", far_end = \"closed\" }\n" + linear)
+                  .find("reservoir.far_end is not read with reservoir.model = \"added-mass\"."),
+              std::string::npos);
+    EXPECT_EQ(notes_of_dam(water + ", far_end = \"absorbing\" }\n" + linear), "");
+    EXPECT_NE(notes_of_dam("reservoir = { level_m = 27, model = \"hydrostatic\" }\nadded_mass = { formula = \"zangar\" }\n" + linear)
+                  .find("[added_mass] is not read with reservoir.model = \"hydrostatic\"."),
+              std::string::npos);
+    const std::string rock = "foundation = { young_modulus_GPa = 20, mass = \"massless\", ";
+    EXPECT_NE(notes_of_dam(rock + "boundary = \"fixed\" }\n").find("foundation.boundary is not read with foundation.mass"),
+              std::string::npos);
+    EXPECT_NE(notes_of_dam(rock + "density_kg_m3 = 2650 }\n").find("foundation.density_kg_m3 is not read with"),
+              std::string::npos);
+    EXPECT_EQ(notes_of_dam(rock + "density_kg_m3 = 2650 }\nstages = { gravity = \"dam-and-rock\" }\n"), "");
+    EXPECT_NE(notes_of_dam("damping = { ratio = 0.03, mass_coefficient_1_s = 1, stiffness_coefficient_s = 0.001 }\n")
+                  .find("damping.ratio is not read by finite elements"),
+              std::string::npos);
+    const Scene scene = parse_scene("section = { height_m = 30, base_m = 24, crest_m = 4 }\ndam = { density_kg_m3 = 2400 }\n"
+                                    "contact = { friction = 0.8 }\n" +
+                                        water + " }\n" + linear + "foundation = { young_modulus_GPa = 20, mass = \"massless\" }\n",
+                                    "dam.toml", FileCheck::skip);
+    EXPECT_TRUE(scene.notes.empty());
+    EXPECT_TRUE(parse_scene(resolved_toml(scene), "dam.toml", FileCheck::skip).notes.empty());
+}
+
+// Drains that the uplift does not read are no effect of the run, and have no load combination; a seam with drained water reads them.
+TEST(WaterInput, DrainsCountWhereTheyAreRead)
+{
+    const auto scene_with = [](const std::string& model, const std::string& more = "") {
+        return parse_scene("section = { height_m = 30, base_m = 24, crest_m = 4 }\ndam = { density_kg_m3 = 2400 }\n"
+                           "contact = { friction = 0.8 }\nreservoir = { level_m = 27 }\nuplift = { model = \"" +
+                               model + "\" }\ndrains = { distance_m = 4, efficiency = 0.67 }\n" + more,
+                           "dam.toml", FileCheck::skip);
+    };
+    const auto combined = [](const Scene& scene) {
+        for (const Combination& c : sliding::combinations(scene, {}))
+            if (c.name == "drains ineffective") return true;
+        return false;
+    };
+    for (const char* model : {"drains", "seepage"}) {
+        EXPECT_TRUE(make_effect_plan(scene_with(model), Method::rigid_block).on(Effect::drains)) << model;
+        EXPECT_TRUE(combined(scene_with(model))) << model;
+    }
+    for (const Method method : {Method::rigid_block, Method::finite_elements})
+        EXPECT_FALSE(make_effect_plan(scene_with("linear"), method).on(Effect::drains));
+    EXPECT_FALSE(combined(scene_with("linear")));
+    EXPECT_TRUE(combined(scene_with("linear", "foundation = { young_modulus_GPa = 20, density_kg_m3 = 2650 }\n"
+                                              "[[seam]]\ndepth_m = 3\nfriction = 0.7\nuplift = \"drains\"\n"
+                                              "[seam.wedge]\nfriction_deg = 40\n")));
+}
+
+// Tailwater stands no higher than the crest unless the reservoir flows over it; ice pushes on the face.
+TEST(WaterInput, TailwaterAndIceStayBelowTheCrest)
+{
+    const auto block = [](const std::string& more) -> std::string {
+        try {
+            parse_scene("section = { polygon_m = [[0,0],[20,0],[20,10],[0,10]] }\ndam = { density_kg_m3 = 2400 }\n"
+                        "contact = { friction = 0.8 }\nuplift = { model = \"none\" }\n" +
+                            more,
+                        "dam.toml", FileCheck::skip);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "(accepted)";
+    };
+    EXPECT_EQ(block("reservoir = { level_m = 8 }\ntailwater = { level_m = 14 }\n"),
+              "dam.toml:6:15: error: tailwater.level_m = 14 is 4 m above the crest at 10 m.\n"
+              "  expected: a tailwater up to the crest, 10 m; higher only with  overtopped = true  in [reservoir]\n"
+              "  fix:      check datum and unit: levels are measured from the heel");
+    EXPECT_EQ(block("reservoir = { level_m = 8 }\ntailwater = { level_m = 10 }\n"), "(accepted)");
+    EXPECT_EQ(block("reservoir = { level_m = 15, overtopped = true }\ntailwater = { level_m = 14 }\n"), "(accepted)");
+    EXPECT_NE(block("reservoir = { level_m = 8 }\n[[combination]]\nname = \"flood\"\ntailwater_level_m = 11\n")
+                  .find("combination[1].tailwater_level_m = 11 is 1 m above the crest at 10 m."),
+              std::string::npos);
+    EXPECT_NE(block("reservoir = { level_m = 8 }\nice = { force_kN_m = 100, level_m = 50 }\n")
+                  .find("ice.level_m = 50 is 40 m above the crest at 10 m."),
+              std::string::npos);
+    EXPECT_EQ(block("reservoir = { level_m = 8 }\nice = { force_kN_m = 100, level_m = 10 }\n"), "(accepted)");
+}
+
+// Only where there is water under the base, and a rule for its opening.
+TEST(WaterInput, RegressionsLeaveOutARuleOfTheOpeningThatIsThere)
+{
+    const auto left_out = [](const std::string& uplift) {
+        return note_texts(not_honoured(parse_scene(wet_scene + ("[uplift]\n" + uplift), "dam.toml", FileCheck::skip),
+                                       methods::regressions));
+    };
+    EXPECT_TRUE(left_out("model = \"none\"\n").empty());
+    EXPECT_TRUE(left_out("model = \"linear\"\n").empty());
+    EXPECT_EQ(left_out("model = \"linear\"\nopening = \"full\"\n").size(), 1u);
 }
 
 } // namespace

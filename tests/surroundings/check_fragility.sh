@@ -47,14 +47,14 @@ spread() { # NAME KILLS
     told="$told, $one: $killed kills"
 }
 told=""
-sizes=(--samples 400 --share-rows 32) files=(samples.csv fragility.csv hazard.csv fragility.xml summary.json report.html)
+sizes=(--samples 400 --share-rows 32) files=(samples.csv fragility.csv hazard_shares.csv fragility.xml summary.json report.html)
 spread one "$kills"
 [ "$(grep -vc '^#' "$work/one/samples.csv")" -gt 4000 ] || fail "fewer than 4,000 runs"
 
 if [ "$kills" -gt 3 ]; then
 # Finite elements of 8 m; the times of summary.json and report.html are those of the machine.
 sed -e "s|\.\./\.\./\.\./records|$source/records|; s|\.\./\.\./\.\./examples/fragility/||; /^files = /d" "$source/tests/bench/fragility/coarse.toml" >"$work/coarse.toml"
-scene=coarse sizes=(--method fe --samples 64 --share-rows 0) files=(samples.csv fragility.csv hazard.csv fragility.xml)
+scene=coarse sizes=(--method fe --samples 64 --share-rows 0) files=(samples.csv fragility.csv hazard_shares.csv fragility.xml)
 spread conditioned "$kills"
 grep -q '"conditioned_on_friction"' "$work/conditioned/summary.json" || fail "friction was not conditioned on"
 scene=dam sizes=(--samples 400 --share-rows 32)

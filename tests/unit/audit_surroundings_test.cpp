@@ -176,7 +176,7 @@ TEST(Audit, C_long_names_make_short_files_that_differ)
     w.write_scene("long", a);
     const ProgramAnswer run = answer_of({"fe", w.in("block.toml"), "--base", "tied", "--out", w.in("fe")});
     ASSERT_EQ(run.code, 0) << run.talk;
-    EXPECT_TRUE(fs::exists(w.folder / "fe" / ("history_" + file_word(a) + ".csv")));
+    EXPECT_TRUE(fs::exists(w.folder / "fe" / ("history_" + file_word(a) + "_+1.csv")));
 }
 
 TEST(Audit, C_names_are_no_formulas_for_spreadsheets)

@@ -206,7 +206,10 @@ TEST_F(CliScene, FeTiedWritesStagesAndHistory)
     const auto j = nlohmann::json::parse(a.out);
     EXPECT_NEAR(j["stages"][0]["force_y_kN_m"].get<double>(), -40 * 2.5 * 9.81, 1e-9); // weight of the triangle
     EXPECT_EQ(j["runs"][0]["steps"], 300);
-    EXPECT_TRUE(std::filesystem::exists(folder / "tied" / "history_pulse.csv"));
+    for (const char* file : {"history_pulse_+1.csv", "history_pulse_-1.csv"})
+        EXPECT_TRUE(std::filesystem::exists(folder / "tied" / file)) << file;
+    EXPECT_EQ(j["verdict"], "–");
+    EXPECT_EQ(j["headline"].get<std::string>().find("On a base that is bonded to the rock"), 0u) << j["headline"];
 }
 
 // The same level from both commands, of the same flags and beside the same records.

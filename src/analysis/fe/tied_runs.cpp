@@ -69,7 +69,7 @@ TiedModels::TiedModels(const Scene& scene, const fe2d::ModelOptions& options) : 
 }
 
 TiedRuns::TiedRuns(const Ready& ready, const FeOptions& options, Watch& watch)
-    : ready_(ready), watch_(watch), polarity_(polarities_of(ready.scene, options.polarity).front()),
+    : ready_(ready), watch_(watch), polarity_(options.polarity),
       models_(ready.scene, model_options(ready))
 {
     const Scene& scene = ready.scene;
@@ -100,21 +100,27 @@ TiedRuns::TiedRuns(const Ready& ready, const FeOptions& options, Watch& watch)
 std::vector<TiedRun> TiedRuns::run(const TakeRun& take)
 {
     std::vector<TiedRun> runs;
-    for (const RecordPair& pair : ready_.records()) {
-        if (watch_.stop_asked()) break;
-        runs.push_back(run(ready_.motion(pair, 1.0, polarity_)));
-        watch_.results_at_hand();
-        if (take) take(runs.back());
-    }
+    const std::vector<MotionName> names = motion_names(ready_.scene, ready_.records(), polarity_);
+    for (const RecordPair& pair : ready_.records())
+        for (const GroundMotion& motion : ready_.motions(pair, polarity_)) {
+            if (watch_.stop_asked()) return runs;
+            runs.push_back(run(names[runs.size()], motion));
+            watch_.results_at_hand();
+            if (take) take(runs.back());
+        }
     return runs;
 }
 
-TiedRun TiedRuns::run(const GroundMotion& motion) const
+std::size_t TiedRuns::whole() const
+{
+    return motion_names(ready_.scene, ready_.records(), polarity_).size();
+}
+
+TiedRun TiedRuns::run(const MotionName& name, const GroundMotion& motion) const
 {
     const Scene& scene = ready_.scene;
     const fe2d::Model& damped = models_.damped();
-    TiedRun run{motion.name, {}, motion.notes, 0.0, motion};
-    run.polarity = polarity_;
+    TiedRun run{name, {}, motion.notes, 0.0, motion};
     fe2d::TiedRunOptions options;
     options.scheme = fe2d::scheme_of(scene.time);
     options.dt = scene.time.dt;
@@ -130,7 +136,7 @@ TiedRun TiedRuns::run(const GroundMotion& motion) const
         };
         run.notes.push_back(rock_note(*radiating_));
     }
-    watch_.begin(motion.name, 1000);
+    watch_.begin(name.label(), 1000);
     options.progress = [&](const fe2d::RunProgress& p) {
         watch_.at(1000.0 * static_cast<double>(p.step) / static_cast<double>(std::max<std::int64_t>(1, p.steps)));
         return watch_.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;

@@ -7,20 +7,19 @@
 #include "fe2d/rock/radiating_rock.hpp"
 #include "fe2d/time/energy.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 /// The earthquakes of a dam that is bonded to its base: linear.
 namespace damslip {
 
-/// The earthquake of one record on a bonded base.
-struct TiedRun {
-    std::string record;
+/// The earthquake of one motion on a bonded base.
+struct TiedRun : MotionName {
     fe2d::History history;
     std::vector<std::string> notes;
     double seconds = 0.0;
     GroundMotion motion;
-    int polarity = 1; ///< -1: the record's horizontal component is flipped
 };
 
 /// What stands still, what moves, and what its damping is taken from; the same model where the rock is massless.
@@ -33,7 +32,8 @@ struct TiedModels {
     const fe2d::Model& damped() const { return massless ? *massless : still; }
 };
 
-/// The models of one scene and the runs on them; one polarity, the other turns the part of the horizontal motion round.
+/// The models of one scene and the runs on them. Both polarities are run: the static loads, and the vertical motion where there is
+/// one, are not turned round with the horizontal motion.
 class TiedRuns {
 public:
     /// Solves the static stages. @param ready, watch  outlive this
@@ -47,13 +47,14 @@ public:
 
     using TakeRun = std::function<void(TiedRun& run)>; ///< called with each run as soon as it is there
     std::vector<TiedRun> run(const TakeRun& take = {});
+    std::size_t whole() const; ///< number of runs when none is left out
 
 private:
-    TiedRun run(const GroundMotion& motion) const;
+    TiedRun run(const MotionName& name, const GroundMotion& motion) const;
 
     const Ready& ready_;
     Watch& watch_;
-    int polarity_;
+    std::optional<int> polarity_; ///< asked for; none: the scene's, else both
     TiedModels models_;
     std::optional<fe2d::FluidModel> water_;
     std::optional<fe2d::RadiatingRock> radiating_; ///< none: the rock of the models moves

@@ -69,7 +69,7 @@ Table contact_energy_table(const std::vector<ContactRun>& runs); ///< terms at t
 Table run_out_table(const std::vector<ContactRun>& runs);
 
 /// What governs the slip of contact runs, and what is to be looked at.
-void add_points(const Scene& scene, const std::vector<ContactRun>& runs, Answer& answer);
+void add_points(const Scene& scene, const std::vector<ContactRun>& runs, Answer& answer, const std::string& name = "governs");
 
 /// What contact_run_table() has for people: the answer, and how it was computed.
 Table run_answer_table(const std::vector<ContactRun>& runs, const std::optional<double>& allowable);

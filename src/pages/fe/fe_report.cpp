@@ -478,7 +478,7 @@ std::vector<std::string> bond_messages(const Scene& scene, const fe2d::Mesh& mes
     return messages;
 }
 
-void add_points(const Scene& scene, const std::vector<ContactRun>& runs, Answer& answer)
+void add_points(const Scene& scene, const std::vector<ContactRun>& runs, Answer& answer, const std::string& name)
 {
     answer.next(fmt::format("damslip assess {}", scene.file.string()));
     if (runs.empty()) return;
@@ -491,7 +491,7 @@ void add_points(const Scene& scene, const std::vector<ContactRun>& runs, Answer&
         governs += fmt::format("; without earthquake it needs a friction of {:.3g}, given {:.3g}",
                                worst.fe.stages.back().critical_friction, base_strength(scene).friction);
     if (const ContactRun* most = most_tensioned(runs)) governs += "; concrete " + crack_words(*most);
-    answer.point("governs", governs);
+    answer.point(name, governs);
     constexpr double wide = 0.1; // of the slip
     if (error.total > wide * std::abs(worst.fe.max_slip))
         answer.point("look at", error.mesh > error.step

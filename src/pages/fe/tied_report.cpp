@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace damslip::pages {
 
@@ -48,7 +49,7 @@ struct Line {
 Chart history_chart(const TiedRun& run, const std::string& together, std::size_t records, const char* title,
                     const char* label, const char* unit, const std::vector<Line>& lines)
 {
-    Chart chart = time_chart(run.record + ": " + title, {label, unit}, 280);
+    Chart chart = time_chart(run.label() + ": " + title, {label, unit}, 280);
     chart.together = together;
     for (const Line& line : lines) {
         Curve& curve = chart.curves.emplace_back(Curve{line.name});
@@ -103,13 +104,16 @@ Headline headline(const std::vector<TiedRun>& runs)
     if (runs.empty()) return {"No earthquake was run.", Outcome::none, "No answer."};
     for (const TiedRun& r : runs)
         if (r.history.status != fe2d::TiedRunStatus::complete)
-            return {r.record + ": " + text_of(r.history.ending), Outcome::unresolved, "UNRESOLVED"};
+            return {r.label() + ": " + text_of(r.history.ending), Outcome::unresolved, "UNRESOLVED"};
     const TiedRun& worst = *std::ranges::max_element(runs, {}, [](const TiedRun& r) { return r.history.peak_crest_x; });
+    const TiedRun& sheared = *std::ranges::max_element(runs, {}, [](const TiedRun& r) { return r.history.peak_base_shear; });
     return {
         fmt::format(
             "On a base that is bonded to the rock the crest moves {:.4g} mm at most against the ground (record {}), "
-            "with a base shear of up to {:.4g} MN/m.",
-            worst.history.peak_crest_x / mm, worst.record, worst.history.peak_base_shear / 1e6),
+            "with a base shear of up to {:.4g} MN/m{}{}.",
+            worst.history.peak_crest_x / mm, worst.label(), sheared.history.peak_base_shear / 1e6,
+            &sheared == &worst ? "" : " (record " + sheared.label() + ")",
+            worst.both ? "" : fmt::format(", polarity {:+d} alone", worst.polarity)),
         Outcome::none, "A bonded base has no slip to judge."};
 }
 
@@ -167,9 +171,7 @@ Table run_table(const std::vector<TiedRun>& runs, bool with_seconds)
     return table_of<R>(
         "Earthquake runs, tied base", columns, runs,
         {"crest x relative to the ground, from the static state; accelerations absolute; energy imbalance over the "
-         "largest energy of the run.",
-         "one polarity: the model is linear, so the other turns the part of the horizontal motion round; --polarity -1 "
-         "runs it."});
+         "largest energy of the run."});
 }
 
 } // namespace
@@ -190,9 +192,9 @@ FePageFrame tied_frame(const Scene& scene, const EffectPlan& plan, const std::ve
 void write_tied_history(const std::filesystem::path& folder, const Scene& scene, const std::string& hash,
                            const TiedRun& run)
 {
-    write_file(folder / (run_file("history", scene, run.record) + ".csv"),
+    write_file(folder / (run_file("history", scene, run.record, run.suffix()) + ".csv"),
                csv(table_of("", history_columns(run.history.peak_water_force > 0.0), run.history.rows),
-                   {"damslip " + program_version() + " fe --base tied", "scene " + hash, "record " + run.record}));
+                   {"damslip " + program_version() + " fe --base tied", "scene " + hash, "record " + run.label()}));
 }
 
 Answer tied_answer(const FePageFrame& frame, const fe2d::StaticSolution& statics, const std::vector<TiedRun>& runs)
@@ -201,12 +203,17 @@ Answer tied_answer(const FePageFrame& frame, const fe2d::StaticSolution& statics
     answer.add("stages", stage_table(frame.model, statics));
     answer.add("runs", run_table(runs, true), {.brief = true});
     nlohmann::ordered_json notes;
-    for (const TiedRun& r : runs) notes[r.record] = r.notes;
+    for (const TiedRun& r : runs) notes[r.label()] = r.notes;
     answer.set("notes", notes);
-    answer.headline_in_brief(headline(runs));
+    const Headline found = headline(runs);
+    answer.headline(found);
+    answer.set("headline", found.sentence);
+    answer.set("verdict", word(found.outcome == Outcome::unresolved ? Verdict::undecided : Verdict::none));
     answer.notes("messages", note_texts(frame.scene.notes));
+    std::set<std::string> said; // once for both polarities
     for (const TiedRun& r : runs)
-        for (const std::string& note : r.notes) answer.note(r.record + ": " + note);
+        for (const std::string& note : r.notes)
+            if (said.insert(r.record + ": " + note).second) answer.note(r.record + ": " + note);
     return answer;
 }
 
@@ -217,12 +224,14 @@ Page tied_page(const FePageFrame& frame, const fe2d::StaticSolution& statics, co
     page.sections.push_back({"Runs", {rows_part(run_table(runs, false))}});
     page.sections.push_back({"Static stages", {rows_part(stage_table(frame.model, statics))}});
     std::vector<GroundMotion> motions;
+    std::size_t number = 0;
     for (const TiedRun& r : runs) {
-        motions.push_back(r.motion);
-        Section section{"Record " + r.record, {}, motions.size() <= open_records ? Fold::open : Fold::folded};
+        if (motions.empty() || motions.back().name != r.motion.name) motions.push_back(r.motion); // once for both polarities
+        ++number;
+        Section section{"Record " + r.label(), {}, number <= open_records ? Fold::open : Fold::folded};
         for (const std::string& note : r.notes) section.parts.push_back(Paragraph{note});
         if (r.history.rows.size() > 1)
-            for (Chart& chart : history_charts(r, motions.size(), runs.size()))
+            for (Chart& chart : history_charts(r, number, runs.size()))
                 section.parts.emplace_back(std::move(chart));
         page.sections.push_back(std::move(section));
     }

@@ -14,7 +14,8 @@ Headline with_failed_checks(Headline slip, const std::string& failed)
     std::string verdict = slip.outcome == Outcome::none ? "no criterion" : slip.verdict;
     if (verdict.ends_with('.')) verdict.pop_back();
     if (verdict.starts_with("Slip: ")) verdict.erase(0, 6);
-    return {std::move(slip.sentence), Outcome::fail, "Slip: " + verdict + "; load combinations: FAIL " + failed};
+    const bool of_slip = !verdict.ends_with("by factor of safety");
+    return {std::move(slip.sentence), Outcome::fail, (of_slip ? "Slip: " : "") + verdict + "; load combinations: FAIL " + failed};
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #include "analysis/prepare/reservoir.hpp"
 #include "core/units.hpp"
 #include "pages/report/picture.hpp"
+#include "scene/drains.hpp"
 #include "scene/effect_plan.hpp"
 #include "scene/section.hpp"
 
@@ -172,7 +173,7 @@ void draw_curtain_and_drains(Sketch& sketch, const Scene& scene, const Frame& f)
                                 scene.curtain->depth, depth < scene.curtain->depth ? " (cut off)" : ""),
                     Align::start, 6, 0);
     }
-    if (!scene.drains) return;
+    if (!drains_are_read(scene)) return;
     const double x = scene.drains->distance, y = slope * x,
                  depth = std::min(scene.drains->depth.value_or(0.2 * f.size), 0.55 * f.size);
     const double from = scene.drains->gallery_level.value_or(y);

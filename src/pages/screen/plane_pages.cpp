@@ -457,13 +457,24 @@ Section plane_section(const Planes& planes, const Scene& scene)
     return section;
 }
 
+std::string factor_words(const PlaneRow& row, const std::vector<PlaneState>& states)
+{
+    const double least = margin(row, states);
+    for (std::size_t i = 0; i < row.factors.size(); ++i)
+        if (row.factors[i] && *row.factors[i] / states[i].required.value_or(1.0) == least)
+            return fmt::format("F {:.4g}{} in {}", *row.factors[i],
+                               states[i].required ? fmt::format(", required {:.4g}", *states[i].required) : "",
+                               states[i].ground.name);
+    return "F not known";
+}
+
 std::string planes_sentence(const Planes& planes)
 {
     if (planes.rows.empty()) return "";
     const auto name = [&](std::size_t i) { return planes.rows[i].name; };
-    std::string out = fmt::format(" Of {} planes {} governs by factor of safety ({:.4g}), {} by a_y ({:.3g} g)",
+    std::string out = fmt::format(" Of {} planes {} governs by factor of safety ({}), {} by a_y ({:.3g} g)",
                                   planes.rows.size(), name(planes.by_factor),
-                                  margin(planes.rows[planes.by_factor], planes.states), name(planes.by_yield),
+                                  factor_words(planes.rows[planes.by_factor], planes.states), name(planes.by_yield),
                                   planes.rows[planes.by_yield].yield / standard_gravity);
     const std::optional<double> slip = slip_of(planes.rows[planes.by_slip]);
     if (!planes.rows.front().slips.empty())
@@ -479,7 +490,13 @@ Headline with_planes(Headline headline, const Planes& planes, const Scene& scene
     const PlaneRow& worst = planes.rows[planes.by_slip];
     const std::optional<double> slip = slip_of(worst);
     const std::string begin = "The dam slides ";
-    if (worst.kind != PlaneKind::base && slip && headline.sentence.starts_with(begin))
+    std::string statically;
+    for (const PlaneRow& row : planes.rows)
+        if (row.kind != PlaneKind::base && row.yield <= 0.0) statically += (statically.empty() ? "" : ", ") + row.name;
+    if (!statically.empty()) {
+        if (headline.sentence.starts_with(begin)) headline.sentence = "On its base it slides " + headline.sentence.substr(begin.size());
+        headline.sentence = fmt::format("The dam slides on {} without any earthquake. {}", statically, headline.sentence);
+    } else if (worst.kind != PlaneKind::base && slip && headline.sentence.starts_with(begin))
         headline.sentence = fmt::format("The dam slides {:.4g} mm at most on {} (record {}, polarity {:+d}), by rigid "
                                         "blocks. On its base: {}",
                                         *slip / mm, worst.name, worst.worst()->record, worst.worst()->polarity,
@@ -492,7 +509,9 @@ Headline with_planes(Headline headline, const Planes& planes, const Scene& scene
         std::string* list = verdict == Verdict::fail ? &failed : verdict == Verdict::undecided ? &open : nullptr;
         if (list) *list += (list->empty() ? "" : ", ") + row.name;
     }
-    if (!failed.empty()) return {headline.sentence, Outcome::fail, "FAIL on " + failed};
+    if (!failed.empty())
+        return {headline.sentence, Outcome::fail,
+                "FAIL on " + failed + (scene.planes.governs == PlaneJudgement::factor ? " by factor of safety" : "")};
     if (!open.empty() && headline.outcome == Outcome::pass)
         return {headline.sentence, Outcome::unresolved, "Undecided on " + open + ": its blocks are locked, or do not press on each other."};
     return headline;

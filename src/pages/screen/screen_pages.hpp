@@ -107,6 +107,9 @@ Table criteria_table(const Screening& s, const Scene& scene);
 /// The tables, a drawing of each seam with its blocks, water and forces, and charts over elevation and wedge angle.
 Section plane_section(const Planes& planes, const Scene& scene);
 /// The headline of the base joined with what the other planes say: the worst of them counts.
+/// "F 0.95, required 1.3 in usual": the factor of safety that is least over the required one.
+std::string factor_words(const PlaneRow& row, const std::vector<PlaneState>& states);
+
 Headline with_planes(Headline headline, const Planes& planes, const Scene& scene);
 
 /// Yield and friction that keep the slip within the allowable one; without rows where there is none.

@@ -42,6 +42,19 @@ CheckCount count_checks(const Screening& s)
     return count;
 }
 
+/// Factors of lifts and seams against those required of the base.
+CheckCount count_plane_checks(const Planes& planes)
+{
+    CheckCount count;
+    for (const PlaneRow& row : planes.rows)
+        for (std::size_t k = 0; row.kind != PlaneKind::base && k < row.factors.size(); ++k)
+            if (const auto& required = planes.states[k].required; required && row.factors[k]) {
+                ++count.judged;
+                count.failed += *row.factors[k] < *required;
+            }
+    return count;
+}
+
 /// Of the slides that are judged by.
 StatusCount judged_statuses(const Screening& s)
 {
@@ -110,11 +123,17 @@ std::string slip_sentence(const Scene& scene, const Screening& s)
     return out + ".";
 }
 
-std::string checks_sentence(const CheckCount& checks)
+/// @param checks  of the base @param others  of lifts and seams, which have a clause of their own
+std::string checks_sentence(const CheckCount& checks, const CheckCount& others)
 {
-    if (checks.failed > 0) return fmt::format(" {} of {} limit-equilibrium checks fail.", checks.failed, checks.judged);
-    if (checks.judged > 0) return fmt::format(" All {} limit-equilibrium checks pass.", checks.judged);
-    return "";
+    const auto words = [](const CheckCount& c, const std::string& which) {
+        return c.failed > 0 ? fmt::format(" {} of {} limit-equilibrium checks{} fail.", c.failed, c.judged, which)
+                            : fmt::format(" All {} limit-equilibrium checks{} pass.", c.judged, which);
+    };
+    std::string out;
+    if (checks.judged > 0) out += words(checks, others.judged > 0 ? " of the base" : "");
+    if (others.judged > 0) out += words(others, " of other planes");
+    return out;
 }
 
 /// Combinations without an earthquake in which the shear exceeds the strength: the dam does not stand then, whether or not
@@ -338,7 +357,7 @@ Headline slip_headline(const Scene& scene, const Screening& s)
             fmt::format("The {} starts to slide at a ground acceleration of {}; no record is "
                         "given.",
                         sliding_body(scene), metres_per_second2(model.downstream.law.constant)) +
-            checks_sentence(checks) + standing_sentence(s);
+            checks_sentence(checks, count_plane_checks(s.planes)) + standing_sentence(s);
         if (checks.judged == 0) return {sentence, Outcome::none, "No criterion."};
         if (checks.failed)
             return {sentence, Outcome::fail, "Load combinations: FAIL " + failed_checks(s.combinations)};
@@ -346,7 +365,7 @@ Headline slip_headline(const Scene& scene, const Screening& s)
     }
     const std::string standing = standing_sentence(s);
     Headline slip = judged_headline(scene, s);
-    slip.sentence += checks_sentence(checks) + standing;
+    slip.sentence += checks_sentence(checks, count_plane_checks(s.planes)) + standing;
     if (slip.outcome != Outcome::pass) return slip;
     if (!standing.empty()) return {slip.sentence, Outcome::unresolved, "Slip: PASS, but see the load combinations."};
     return {slip.sentence, slip.outcome, pass};
@@ -441,24 +460,45 @@ std::vector<std::string> screen_notes(const Ready& ready)
 
 namespace {
 
+/// What is said of the lift or seam that governs; empty: the base does.
+std::string governing_plane_words(const Screening& s, const Scene& scene)
+{
+    if (s.planes.rows.empty()) return "";
+    const PlaneRow& row = governing(s.planes, scene.planes.governs);
+    if (row.kind == PlaneKind::base) return "";
+    const std::string yields = row.yield > 0.0 ? fmt::format("it yields at {:.3g} g", row.yield / standard_gravity)
+                                               : "it slides without any earthquake";
+    const PlaneSlip* worst = row.worst();
+    if (!worst || scene.planes.governs == PlaneJudgement::factor)
+        return fmt::format("{}: {}; {}", row.name, factor_words(row, s.planes.states), yields);
+    const auto same = std::find_if(s.slips.begin(), s.slips.end(), [&](const SlipRow& slip) {
+        return slip.record == worst->record && slip.polarity == worst->polarity;
+    });
+    return fmt::format("{}, record {}, polarity {:+d}: {}{}", row.name, worst->record, worst->polarity,
+                       same == s.slips.end() ? "" : fmt::format("PGA {:.3g} g, ", same->pga / standard_gravity), yields);
+}
+
 /// What governs, and what is to be looked at.
 void add_points(const ScreenReportInput& in, Answer& answer)
 {
     const Screening& s = in.screening;
     const bool elastic = s.elastic && !s.elastic->runs.empty();
+    const std::string of_plane = governing_plane_words(s, in.scene); // empty: the base
+    answer.point("governs", of_plane);
+    const std::string base = of_plane.empty() ? "governs" : "base";
     if (elastic) {
-        add_points(in.scene, s.elastic->runs, answer);
+        add_points(in.scene, s.elastic->runs, answer, base);
     } else if (const SlipRow* worst = largest(s)) {
         const double yield = s.bases.front().model.downstream.law.constant;
-        answer.point("governs", fmt::format("record {}, polarity {:+d}: PGA {:.3g} g, it yields at {:.3g} g", worst->record,
+        answer.point(base, fmt::format("record {}, polarity {:+d}: PGA {:.3g} g, it yields at {:.3g} g", worst->record,
                                             worst->polarity, worst->pga / standard_gravity, yield / standard_gravity));
     }
     double friction = 0.0;
     if (!elastic) // what a rigid block needs is no bound for the elastic dam
         for (const NeededRow& row : s.needed) friction = std::max(friction, row.friction.value_or(0.0));
     if (friction > 0.0)
-        answer.point("look at", fmt::format("friction: {:.3g} keeps the rigid block's slip within {:.4g} mm, given {:.3g}",
-                                            friction, in.scene.criteria.allowable_slip.value_or(0.0) / mm,
+        answer.point("look at", fmt::format("friction{}: {:.3g} keeps the rigid block's slip within {:.4g} mm, given {:.3g}",
+                                            of_plane.empty() ? "" : " of the base", friction, in.scene.criteria.allowable_slip.value_or(0.0) / mm,
                                             in.scene.contact.friction));
     if (!in.scene.wedge && in.scene.dam.young_modulus) answer.next("damslip fe " + in.scene.file.string());
 }
@@ -524,6 +564,7 @@ Answer screen_answer(const ScreenReportInput& in)
     out.set("verdict", headline.verdict);
     out.set("warnings", s.warnings);
     add_points(in, out);
+    if (in.spectrum) out.point("response spectrum", spectrum_sentence(*in.spectrum));
     for (const std::string& warning : s.warnings) out.note(warning);
     return out;
 }

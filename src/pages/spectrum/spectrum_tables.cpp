@@ -5,6 +5,7 @@
 #include "pages/report/json.hpp"
 #include "pages/report/table_text.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -153,6 +154,16 @@ std::string spectrum_text(const SpectrumLevel& level)
         tables.push_back(height_table(level.rows[i]));
     }
     return texts(tables);
+}
+
+std::string spectrum_sentence(const SpectrumLevel& level)
+{
+    if (level.rows.empty()) return "";
+    const SpectrumDemand& worst = *std::max_element(level.rows.begin(), level.rows.end(), [](const auto& a, const auto& b) {
+        return a.shear < b.shear;
+    });
+    return fmt::format("{}, PGA {:.4g} m/s²: base shear {:.4g} MN/m by its modes, sliding factor {:.3g}, heel {:.3g} MPa at least",
+                       worst.record, worst.pga, worst.shear / 1e6, worst.sliding_factor, worst.heel_least / units::MPa);
 }
 
 Section spectrum_section(const SpectrumLevel& level)

@@ -13,6 +13,8 @@ Table spectrum_table(const SpectrumLevel& level);
 
 nlohmann::ordered_json spectrum_json(const SpectrumLevel& level);
 std::string spectrum_text(const SpectrumLevel& level);
+/// The spectrum of the largest base shear in one sentence; empty without spectra.
+std::string spectrum_sentence(const SpectrumLevel& level);
 Section spectrum_section(const SpectrumLevel& level);
 
 } // namespace damslip::pages
