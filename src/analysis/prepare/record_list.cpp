@@ -356,7 +356,7 @@ RecordList records_of_list(const std::filesystem::path& list, const std::string&
     files.folder = folder_of(list);
     const CsvTable table = parse_csv(text);
     const std::vector<std::string>& columns = table.heading.cells;
-    records::check_list(list, table, known, {"horizontal"}, columns_of_a_list);
+    records::check_list(list, table, known, {"horizontal"}, known_columns.c_str());
     for (const auto& [number, cells] : table.rows) {
         RecordFiles record;
         std::string event;
