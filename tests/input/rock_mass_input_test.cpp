@@ -33,7 +33,7 @@ TEST(RockMassInput, NeedsADensity)
               "  fix:      write  density_kg_m3 = 2650  in [foundation], or  mass = \"massless\"  for rock without "
               "inertia");
     EXPECT_EQ(rock_message("density_kg_m3 = 0\n"), // would run as 2650
-              "dam.toml:9:1: error: foundation.density_kg_m3 = 0 with foundation.mass = \"with-mass\".\n"
+              "dam.toml:8:1: error: foundation.density_kg_m3 = 0 with foundation.mass = \"with-mass\".\n"
               "  expected: the density of the rock: 2500 ... 2900 kg/m3 is usual; left out it is 2650 where rock radiates\n"
               "  fix:      delete density_kg_m3, or write  mass = \"massless\"  for rock without inertia");
     EXPECT_EQ(rock_message(""), "(accepted)");
