@@ -10,7 +10,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <set>
 
 namespace damslip::fe2d {
 
@@ -102,39 +101,14 @@ void fill_curtain(SeepageResult& result, const Curtain& curtain, const Permeabil
     result.flow_under_curtain = all - result.flow_through_curtain;
 }
 
-/// Drains take water and give none: at each of their nodes the head is theirs and water flows out, or it is lower and none
-/// does. An active set: nodes that would give water are let go, nodes whose head comes above the drains' are held, until the
-/// set stays, or is one that has been tried.
+/// A row of open holes has one head: water may enter below and leave above. Where the holes would give more than they take, as
+/// behind a curtain that lowers the head below theirs, they do nothing.
 DarcySolution solve_with_drains(const Mesh& mesh, const Permeability& permeability, const UpliftState& state,
                                 const std::vector<int>& nodes, double drain_head)
 {
-    constexpr double round_off = 1e-9; // of the water that passes the line, and of the head
-    std::vector<int> drained = nodes;
-    std::set<std::vector<int>> tried;
-    for (;;) {
-        DarcySolution field = solve_darcy(mesh, permeability, boundary_heads(mesh, state, drained, drain_head));
-        if (nodes.empty() || !field.solver.ok() || !tried.insert(drained).second) return field;
-        double passing = 0.0;
-        for (const int n : drained) passing += std::abs(field.inflow[n]);
-        std::vector<int> next;
-        for (const int n : nodes) {
-            const bool held = std::binary_search(drained.begin(), drained.end(), n);
-            if (held ? field.inflow[n] <= round_off * passing
-                     : field.head[n] > drain_head + round_off * std::max(1.0, std::abs(drain_head)))
-                next.push_back(n);
-        }
-        if (next == drained) return field;
-        drained = std::move(next);
-    }
-}
-
-Permeability permeability_of(const Scene& scene, const UpliftState& state)
-{
-    Permeability k;
-    k.rock = rock_permeability(scene);
-    const bool works = curtain_changes_flow(scene) && state.curtain == CurtainState::intact;
-    k.curtain = works ? scene.curtain->permeability : k.rock;
-    return k;
+    DarcySolution field = solve_darcy(mesh, permeability, boundary_heads(mesh, state, nodes, drain_head));
+    if (nodes.empty() || !field.solver.ok() || total(field.inflow, nodes) <= 0.0) return field;
+    return solve_darcy(mesh, permeability, boundary_heads(mesh, state, {}, drain_head));
 }
 
 } // namespace

@@ -48,7 +48,7 @@ DarcySolution solve_darcy(const Mesh& mesh, const Permeability& permeability, st
 double flow_into(const Mesh& mesh, const Permeability& permeability, const DarcySolution& solution,
                  std::span<const int> nodes, const std::function<bool(const Element&, const Corners&)>& chosen);
 
-/// The scene's drain line: held, where it draws water, at the head that USACE EM 1110-2-2200 gives at the drains,
+/// The scene's drain line: held, if it draws water, at the head that USACE EM 1110-2-2200 gives at the drains,
 /// H3 = H2 + (1 - E)(H1 - H2)(L - X)/L, H2 the tailwater or a higher gallery. None without [drains], or where
 /// ineffective.
 std::optional<DrainLine> drain_line(const Scene& scene, const UpliftState& state);

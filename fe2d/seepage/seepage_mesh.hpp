@@ -10,7 +10,7 @@
 
 namespace damslip::fe2d {
 
-/// A line of relief wells below the base: the head of the rock is at most theirs, and they give no water.
+/// A line of relief wells below the base, held at one head as long as they take more water than they give.
 struct DrainLine {
     double distance = 0.0; ///< from the heel along the base [m]
     double depth = 0.0;    ///< below the base [m]
