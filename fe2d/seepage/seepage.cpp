@@ -111,6 +111,15 @@ DarcySolution solve_with_drains(const Mesh& mesh, const Permeability& permeabili
     return solve_darcy(mesh, permeability, boundary_heads(mesh, state, {}, drain_head));
 }
 
+Permeability permeability_of(const Scene& scene, const UpliftState& state)
+{
+    Permeability k;
+    k.rock = rock_permeability(scene);
+    const bool works = curtain_changes_flow(scene) && state.curtain == CurtainState::intact;
+    k.curtain = works ? scene.curtain->permeability : k.rock;
+    return k;
+}
+
 } // namespace
 
 std::optional<DrainLine> drain_line(const Scene& scene, const UpliftState& state)
