@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace damslip {
+namespace damslip::seam_audit {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -156,4 +156,4 @@ TEST(AuditPlanes, AmplificationByPointsIsIntegratedBetweenThem)
 }
 
 } // namespace
-} // namespace damslip
+} // namespace damslip::seam_audit
