@@ -24,7 +24,7 @@ struct WaterReductionOptions {
 ///
 /// V has the pressures of the mesh in a basis of their own. An absorbing end (fe2d/fluid/coupled_modes.hpp) lets energy leave and never
 /// come as a whole only, as the channel beyond some depth column; so its layers keep their form on a column of few shapes, of which
-/// the trace of V on the end is made, too. The reduced water is then passive whatever is cut.
+/// the trace of V on the end is made, too. The reduced water is then as passive as that of the mesh, whatever is cut.
 struct ReducedWater {
     Eigen::MatrixXd mass, damping, stiffness;               ///< -s²VᵀQV, -s²VᵀAV, -s²VᵀLV
     Eigen::VectorXd velocity_x, velocity_y, displacement_y; ///< loads per ground velocity and displacement
