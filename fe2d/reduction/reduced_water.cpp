@@ -27,6 +27,7 @@ namespace {
 constexpr double growth = 0.01; ///< σ/ω of sampled frequencies
 constexpr double samples_per_cut_off = 3.0;
 constexpr int least_samples = 6;
+constexpr double column_share = 1000.0; ///< what the depth column may leave over what the mesh may
 
 std::complex<double> growing(double frequency)
 {
@@ -285,7 +286,8 @@ private:
         for (Index layer = 0; layer < with_momenta; ++layer) put(momenta);
     }
 
-    /// Shapes over the depth, orthonormal in the norm of the end, that leave less than kept_ of each column.
+    /// Shapes over the depth, orthonormal in the norm of the end. They may leave more than those of the mesh: from 1e-4 to a tenth of a
+    /// snapshot changes slips of 20 to 200 mm by 1e-4 mm, and saves a third of the layers.
     MatrixXd column_shapes(const MatrixXd& norm, const MatrixXd& columns) const
     {
         const Eigen::LLT<MatrixXd> llt(norm);
@@ -293,7 +295,7 @@ private:
         const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled * scaled.transpose());
         VectorXd left = scaled.colwise().squaredNorm();
         Index count = 0;
-        for (; count < norm.rows() && left.maxCoeff() > kept_; ++count)
+        for (; count < norm.rows() && left.maxCoeff() > column_share * kept_; ++count)
             left -= (eigen.eigenvectors().col(norm.rows() - 1 - count).transpose() * scaled).cwiseAbs2().transpose();
         return llt.matrixU().solve(eigen.eigenvectors().rightCols(count));
     }
