@@ -48,7 +48,9 @@ DynamicOperator::DynamicOperator(const ContactStructure& structure, const RunDam
                                  const ReducedRock* radiating)
     : structure_(structure), slip_damping_(slip_damping), constants_(constants),
       factor_(dam_matrix(structure, damping, constants), structure.order().inner - structure.floor_nodes(),
-              structure.water() ? -1 : 0, structure.floor_nodes(), structure.ties()),
+              structure.water() ? -1 : 0, structure.floor_nodes(), structure.ties(),
+              // without water all it adds to K, which the structure has checked, is semi-definite
+              structure.water() ? InterfaceSigns::checked : InterfaceSigns::known),
       gaps_(structure.planes().gaps())
 {
     if (!factor_.regular()) return;

@@ -44,7 +44,7 @@ inline void take_pivot(const InterfaceFactor::Pivot& p, double first, double sec
 } // namespace
 
 InterfaceFactor::InterfaceFactor(const SparseMatrix& of_nodes, int inner_nodes, int negative, int negative_nodes,
-                                 std::vector<Tie> ties)
+                                 std::vector<Tie> ties, InterfaceSigns signs)
     : inner_(inner_nodes), ties_(std::move(ties))
 {
     const SparseMatrix matrix = tied(of_nodes, ties_);
@@ -53,14 +53,15 @@ InterfaceFactor::InterfaceFactor(const SparseMatrix& of_nodes, int inner_nodes, 
     const Eigen::VectorXd& d = ldlt.diagonal;
     if (!d.allFinite() || (d.array() == 0.0).any() || (negative >= 0 && (d.array() < 0.0).count() != negative)) return;
     schur_ = ldlt.schur(matrix);
-    // Where the whole is what its inner part is, so is the Schur complement: its diagonal tells what is not. What nothing holds is
-    // zero up to round-off.
-    const Index below = 2 * negative_nodes;
-    const auto of_sign = [&](Index first, Index count, double sign) {
-        const auto given = matrix.diagonal().tail(schur_.rows()).segment(first, count).array().abs();
-        return (sign * schur_.diagonal().segment(first, count).array() >= -1e-10 * given).all();
+    // Of one sign each; what nothing holds is none, up to round-off, so a multiple of the identity is added for the check.
+    const Index below = 2 * negative_nodes, above = schur_.rows() - below;
+    const auto definite = [&](Index first, Index count, double sign) {
+        Eigen::MatrixXd part = sign * schur_.block(first, first, count, count);
+        part.diagonal().array() += sign * matrix.diagonal().segment(2 * inner_ + first, count).mean();
+        return Eigen::LLT<Eigen::MatrixXd>(part).info() == Eigen::Success;
     };
-    if (!of_sign(0, below, -1.0) || !of_sign(below, schur_.rows() - below, 1.0)) return;
+    if (signs == InterfaceSigns::checked && ((below > 0 && !definite(0, below, -1.0)) || (above > 0 && !definite(below, above, 1.0))))
+        return;
     regular_ = true;
 
     begin_ = std::move(ldlt.begin);

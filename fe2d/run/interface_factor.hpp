@@ -10,6 +10,9 @@
 
 namespace damslip::fe2d {
 
+/// Are the signs of the interface's rest checked, by a factorisation of it, or known from another matrix of the same structure?
+enum class InterfaceSigns { checked, known };
+
 /// L D L^T of the inner nodes of one body in the order of interface_last, in 2 x 2 blocks, and the dense rest: the
 /// Schur complement on the interface. One forward and one backward pass solve the body with whatever happens on the
 /// interface in between, so a time step with contact costs no more than one without.
@@ -28,7 +31,7 @@ public:
     /// positive
     /// @param ties  by the nodes of the matrix
     InterfaceFactor(const SparseMatrix& matrix, int inner_nodes, int negative = 0, int negative_nodes = 0,
-                    std::vector<Tie> ties = {});
+                    std::vector<Tie> ties = {}, InterfaceSigns signs = InterfaceSigns::checked);
 
     bool regular() const { return regular_; }
     const Eigen::MatrixXd& schur() const { return schur_; } ///< A_cc - A_ci A_ii⁻¹ A_ic, unknowns (x, y) by node

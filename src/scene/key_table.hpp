@@ -79,7 +79,7 @@ enum class ValueKind {
 /// An enumeration by the place of its word.
 struct Choice {
     std::function<void(int)> set;
-    std::function<int()> get; ///< -1: none of the words
+    std::function<int()> get; ///< -1: the scene has a value without a word
 };
 
 struct NumberOrWord {

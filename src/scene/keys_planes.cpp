@@ -109,9 +109,9 @@ KeyGroup seam_group(const std::vector<Key>& contact)
              "water pressure along the path: none, linear in head from entry to exit, drains (those of [drains]) or "
              "points",
              "\"linear\"",
-             choice(&S::uplift, {{"none", UpliftModel::none},
-                                 {"linear", UpliftModel::linear},
+             choice(&S::uplift, {{"linear", UpliftModel::linear},
                                  {"drains", UpliftModel::drains},
+                                 {"none", UpliftModel::none},
                                  {"points", UpliftModel::points}})),
         pairs("uplift_points", length, none, Range::between(0, 2), "none",
               "uplift points: distance along the path, pressure over that at its entry", "[[0, 1], [45, 0.2]]",

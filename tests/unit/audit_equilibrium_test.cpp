@@ -325,6 +325,17 @@ TEST(Audit, A7_drains_imply_uplift)
     EXPECT_EQ(parsed(drains + "[curtain]\ndistance_m = 5\n").uplift->model, UpliftModel::seepage);
 }
 
+// Behind a curtain the head of poor drains lies above that of the rock; such drains are left out, and are named.
+TEST(Audit, drains_that_would_give_water_are_named)
+{
+    const Folder folder(1.0);
+    for (const bool poor : {true, false}) {
+        const nlohmann::json screen = folder.screened(with_water + "[curtain]\ndistance_m = 5\n[drains]\ndistance_m = 9\nefficiency = " +
+                                                      (poor ? "0.2\n" : "0.9\n"));
+        EXPECT_EQ(says(screen["warnings"], "[drains] change nothing: their head"), poor);
+    }
+}
+
 TEST(Audit, A7_water_needs_a_word_on_uplift)
 {
     const std::string message = message_of(with_water);

@@ -349,6 +349,12 @@ TEST(FeSeam, SaysWhatFiniteElementsDoNotFollow)
     scene = elastic_seam(1.0);
     scene.mesh.element = ElementKind::q8;
     EXPECT_NE(message(scene).find("quadratic"), std::string::npos);
+    // A wedge of one given angle that water carries without an earthquake; with a search the body is alone.
+    scene = elastic_seam(1.0);
+    scene.seams[0].uplift = UpliftModel::linear;
+    EXPECT_NE(message(scene).find("does not stand without an earthquake. It weighs "), std::string::npos) << message(scene);
+    scene.seams[0].wedge->angles.clear();
+    EXPECT_EQ(message(scene), "");
 }
 
 /// A row of a sweep on a seam is the run of the scene with that friction and no other; the base in the same sweep is a scene without

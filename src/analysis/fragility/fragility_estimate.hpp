@@ -116,7 +116,7 @@ struct RunCount {
     double middle() const { return 0.5 * (low() + high()); }
 };
 
-/// What `times` runs add to the counts, or a prediction. @param fails  P of one that stands
+/// The count of `times` runs that end alike. @param fails  probability that a run that stands fails the limit
 RunCount count_of(bool stands, double fails, StaticFailure rule, double times);
 RunCount count_of(LimitAnswer answer, StaticFailure rule, double weight);
 

@@ -189,7 +189,7 @@ void check(const Scene& scene, const Seam& seam)
                    o.expected, o.fix);
 }
 
-/// A wedge of one angle that does not stand before the seam moves.
+/// A wedge of one angle that does not stand without an earthquake.
 [[noreturn]] void refuse_wedge(const Scene& scene, const Seam& seam)
 {
     const double angle = seam.wedge->angles.front();
@@ -197,8 +197,8 @@ void check(const Scene& scene, const Seam& seam)
     const sliding::ChainBlock& wedge = chain.blocks.back();
     throw InputError(Diagnostic{
         scene.file.string(), 0, 0,
-        fmt::format("seam[{}] \"{}\" by finite elements (--plane): at its yield its wedge at {:.4g} degrees does not stand. It weighs {:.4g} "
-                    "kN/m; water lifts it by {:.4g} kN/m and pushes it by {:.4g} kN/m.",
+        fmt::format("seam[{}] \"{}\" by finite elements (--plane): its wedge at {:.4g} degrees does not stand without an earthquake. It "
+                    "weighs {:.4g} kN/m; water lifts it by {:.4g} kN/m and pushes it by {:.4g} kN/m.",
                     place_of(scene, seam), seam.name, angle / units::degree, 1e-3 * wedge.mass * chain.gravity, 1e-3 * wedge.uplift,
                     1e-3 * chain.interfaces.back().water),
         "a wedge that the body presses on", "write  exit = \"free-face\"  without [seam.wedge], give [drains], or another angle_deg"});
@@ -301,9 +301,10 @@ Scene with_seam_body(Scene scene)
     if (scene.planes.slides_on.empty()) return scene;
     const Seam seam = named_seam(scene);
     check(scene, seam);
-    const sliding::SeamPlane plane = sliding::seam_plane(scene, seam, {});
-    if (plane.wedge_left_out && seam.wedge->angles.size() == 1) refuse_wedge(scene, seam);
-    scene.seam_body = body_of(scene, seam, plane.angle);
+    const bool given = seam.wedge && seam.wedge->angles.size() == 1; // contact finds out whether it stands in the earthquake
+    if (given && !sliding::seam_plane(scene, seam, {{"static"}}).factors.front().angle) refuse_wedge(scene, seam);
+    scene.seam_body =
+        body_of(scene, seam, given ? std::optional(seam.wedge->angles.front()) : sliding::seam_plane(scene, seam, {}).angle);
     return scene;
 }
 

@@ -152,7 +152,7 @@ void add_seam_warnings(const Scene& scene, const PlaneRow& row, const sliding::S
                              ? "not all angles let"
                              : "no angle lets"));
     for (std::size_t k = 0; k < plane.factors.size(); ++k)
-        if (beside_one_that_falls(plane, k))
+        if (plane.factors[k].without_wedge < plane.factors[k].factor && beside_one_that_falls(plane, k))
             warn(fmt::format("the least factor {:.4g} is that of the last angle at which its wedge stands, {:.3g} degrees; at other "
                              "angles its uplift carries it, or the body would have to pull on it. Without a wedge it is {:.4g}.",
                              plane.factors[k].factor, *plane.factors[k].angle / units::degree, plane.factors[k].without_wedge));

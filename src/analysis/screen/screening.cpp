@@ -245,6 +245,18 @@ void add_equilibrium(const Ready& ready, const sliding::SeepageProfile& seepage,
         s.uplifts = sliding::compare_uplift(scene, s.plan.on(Effect::seepage) ? seepage : sliding::SeepageProfile{});
 }
 
+/// Drains whose head lies above that of the rock behind the curtain would give it water: they are left out.
+bool drains_change_nothing(const Screening& s)
+{
+    const auto uplift = [&](std::string_view name) -> std::optional<double> {
+        for (const sliding::Equilibrium& e : s.combinations)
+            if (e.name == name) return e.base.uplift;
+        return std::nullopt;
+    };
+    const auto with = uplift("usual"), without = uplift("drains ineffective");
+    return s.plan.on(Effect::seepage) && with && without && std::abs(*with - *without) <= 1e-3 * *without;
+}
+
 void add_flexible_warnings(const SlipRow& row, std::vector<std::string>& warnings)
 {
     const auto& decoupled = row.flexible->decoupled;
@@ -270,6 +282,9 @@ void add_warnings(const Scene& scene, const Screening& s, std::vector<std::strin
     if (s.dry_base)
         warnings.push_back("The base is taken as dry although there is water on the dam: no answer here counts any "
                            "uplift.");
+    if (drains_change_nothing(s))
+        warnings.push_back("[drains] change nothing: their head, by drains.efficiency, lies above that of the rock behind the "
+                           "curtain, and they would give it water. A larger efficiency, or a deeper line, draws water.");
     const bool rocks = std::any_of(s.slips.begin(), s.slips.end(), answered_by_rocking);
     for (const std::string& premise : broken_premises(s))
         warnings.push_back((rocks ? "Judged by the block that rocks and slides: the dam " : "No PASS: the dam ") +
