@@ -1,7 +1,7 @@
 #include "fe2d/contact/contact_solver.hpp"
 
 #include "fe2d/contact/contact_problem.hpp"
-#include "fe2d/contact/exponential_normal.hpp"
+#include "fe2d/contact/joint_law.hpp"
 #include "fe2d/solver/dense_product.hpp"
 
 #include <algorithm>

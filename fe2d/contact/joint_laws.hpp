@@ -1,7 +1,6 @@
 #pragma once
 
 #include "fe2d/contact/contact_solver.hpp"
-#include "fe2d/contact/exponential_normal.hpp"
 #include "fe2d/contact/joint_law.hpp"
 
 #include <memory>

@@ -1,6 +1,6 @@
 #include "fe2d/contact/released_system.hpp"
 
-#include "fe2d/contact/two_levels.hpp"
+#include "core/version.hpp"
 #include "fe2d/solver/dense_product.hpp"
 
 #include <Eigen/Core>

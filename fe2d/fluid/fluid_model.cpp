@@ -1,7 +1,7 @@
 #include "fe2d/fluid/fluid_model.hpp"
 
 #include "fe2d/element/elastic.hpp"
-#include "fe2d/fluid/coupled_modes.hpp"
+#include "fe2d/fluid/coupled_system.hpp"
 #include "scene/rock_mass.hpp"
 
 #include <array>

@@ -1,9 +1,8 @@
-#include "fe2d/gmsh/read_gmsh.hpp"
+#include "fe2d/gmsh/gmsh.hpp"
 
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/text.hpp"
-#include "fe2d/gmsh/write_gmsh.hpp"
 
 #include <algorithm>
 #include <cmath>

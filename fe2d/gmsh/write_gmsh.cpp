@@ -1,4 +1,4 @@
-#include "fe2d/gmsh/write_gmsh.hpp"
+#include "fe2d/gmsh/gmsh.hpp"
 
 #include "core/input_error.hpp"
 #include "core/text.hpp"

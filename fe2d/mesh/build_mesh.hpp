@@ -16,7 +16,7 @@ struct ContactExtension {
 };
 
 /// Turns the linear quadrilaterals and triangles of a mesh, whoever made it, into elements of the wanted kind:
-/// quadrilaterals split along their shorter diagonal (t3, t6), middle nodes added (q8, q9, t6; quadratic.hpp).
+/// quadrilaterals split along their shorter diagonal (t3, t6), middle nodes added (q8, q9, t6; element/elastic.hpp).
 void shape_elements(Mesh& mesh, ElementKind kind);
 
 /// Whether the curtain is a zone of its own in the mesh (build_mesh).

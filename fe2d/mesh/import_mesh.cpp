@@ -1,7 +1,7 @@
 #include "fe2d/mesh/import_mesh.hpp"
 
 #include "core/input_error.hpp"
-#include "fe2d/gmsh/read_gmsh.hpp"
+#include "fe2d/gmsh/gmsh.hpp"
 #include "scene/section.hpp"
 
 #include <algorithm>

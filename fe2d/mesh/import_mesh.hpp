@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe2d/gmsh/write_gmsh.hpp"
+#include "fe2d/gmsh/gmsh.hpp"
 #include "fe2d/mesh/build_mesh.hpp"
 
 #include <optional>
@@ -24,7 +24,7 @@ struct ImportedMesh {
     ImportSummary summary;
 };
 
-/// Reads scene.mesh.file (gmsh/read_gmsh.hpp) in place of meshing. Bodies are the physical surfaces "dam", "rock" and
+/// Reads scene.mesh.file (gmsh/gmsh.hpp) in place of meshing. Bodies are the physical surfaces "dam", "rock" and
 /// "curtain", each also with zones "rock:weathered"; rock is left out where the scene has no foundation, the curtain is rock
 /// where build_mesh would not mesh it. The physical line "base" is the plane between dam and rock; it and the lift joints are
 /// split as build_mesh does (imported_dam.hpp, imported_rock.hpp).

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/geometry.hpp"
-#include "fe2d/gmsh/write_gmsh.hpp"
+#include "fe2d/gmsh/gmsh.hpp"
 
 #include <array>
 #include <optional>
@@ -41,7 +41,7 @@ struct ElementNodes {
 
 /// A quadrilateral, or a triangle when the fourth node is -1; nodes counter-clockwise. Edges are straight, and linear or
 /// quadratic each by itself: an element between a quadratic and a linear edge is a transition element, and the mesh is
-/// conforming wherever the two elements of an edge agree on its middle node (mesh/quadratic.hpp).
+/// conforming wherever the two elements of an edge agree on its middle node (element/elastic.hpp).
 struct Element {
     std::array<int, 4> nodes{-1, -1, -1, -1}; ///< corners
     Region region = Region::dam;

@@ -1,8 +1,8 @@
 #include "fe2d/reduction/reduced_water.hpp"
 
-#include "core/watch.hpp"
+#include "core/parallel.hpp"
+#include "fe2d/harmonic/transfer.hpp"
 #include "fe2d/reduction/dam_modes.hpp"
-#include "fe2d/rock/frequency_solver.hpp"
 #include "fe2d/rock/reduce_rock.hpp"
 
 #include <Eigen/Cholesky>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/note.hpp"
+#include "core/status.hpp"
+#include "fe2d/fluid/coupled_system.hpp"
 #include "fe2d/rock/reduced_rock.hpp"
-#include "fe2d/run/water_body.hpp"
 
 #include <string>
 
@@ -22,7 +22,7 @@ struct WaterReductionOptions {
 ///
 ///     M_w ÿ + G_w ẏ + K_w y - s Vᵀ(Hᵀu̇ + v̇) = ground loads,   p = s V ẏ
 ///
-/// V has the pressures of the mesh in a basis of their own. An absorbing end (fe2d/fluid/coupled_modes.hpp) lets energy leave and never
+/// V has the pressures of the mesh in a basis of their own. An absorbing end (fe2d/fluid/coupled_system.hpp) lets energy leave and never
 /// come as a whole only, as the channel beyond some depth column; so its layers keep their form on a column of few shapes, of which
 /// the trace of V on the end is made, too. The reduced water is then as passive as that of the mesh, whatever is cut.
 struct ReducedWater {

@@ -1,7 +1,7 @@
 #include "fe2d/rock/radiating_rock.hpp"
 
 #include "core/file.hpp"
-#include "core/watch.hpp"
+#include "core/parallel.hpp"
 #include "fe2d/mesh/build_mesh.hpp"
 #include "fe2d/model/model.hpp"
 #include "scene/rock_mass.hpp"

@@ -1,9 +1,8 @@
 #include "fe2d/rock/reduce_rock.hpp"
 
 #include "core/parallel.hpp"
-#include "core/watch.hpp"
+#include "fe2d/harmonic/transfer.hpp"
 #include "fe2d/model/model.hpp"
-#include "fe2d/rock/frequency_solver.hpp"
 #include "fe2d/solver/dense_product.hpp"
 #include "fe2d/solver/linear_solver.hpp"
 

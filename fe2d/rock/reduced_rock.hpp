@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/note.hpp"
+#include "core/status.hpp"
 #include "fe2d/time/energy.hpp"
 #include "fe2d/time/scheme.hpp"
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "fe2d/contact/joint_water.hpp"
+#include "fe2d/fluid/coupled_system.hpp"
 #include "fe2d/run/contact_motion.hpp"
 #include "fe2d/run/contact_planes.hpp"
-#include "fe2d/run/water_body.hpp"
 
 /// Water under the dam that follows the opening of the base, or loses its drains.
 namespace damslip::fe2d {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "fe2d/contact/joint_laws.hpp"
+#include "fe2d/fluid/coupled_system.hpp"
 #include "fe2d/run/node_products.hpp"
 #include "fe2d/run/step_parts.hpp"
-#include "fe2d/run/water_body.hpp"
 #include "fe2d/time/energy.hpp"
 #include "fe2d/time/scheme.hpp"
 

@@ -1,6 +1,6 @@
 #include "fe2d/run/contact_stepper.hpp"
 
-#include "core/watch.hpp"
+#include "core/parallel.hpp"
 #include "fe2d/contact/bond_law.hpp"
 #include "fe2d/run/step_passes.hpp"
 #include "fe2d/solver/dense_product.hpp"

@@ -1,11 +1,10 @@
 #pragma once
 
-#include "fe2d/fluid/coupled_modes.hpp"
+#include "fe2d/fluid/coupled_system.hpp"
 #include "fe2d/model/model.hpp"
 #include "fe2d/run/contact_planes.hpp"
 #include "fe2d/run/interface_factor.hpp"
 #include "fe2d/run/node_products.hpp"
-#include "fe2d/run/water_body.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>

@@ -3,7 +3,7 @@
 #include "fe2d/run/earthquake_pass.hpp"
 #include "fe2d/run/strength.hpp"
 
-#include "core/watch.hpp"
+#include "core/parallel.hpp"
 #include "fe2d/model/model.hpp"
 #include "scene/planes.hpp"
 

@@ -1,9 +1,7 @@
 #pragma once
 
-#include "core/note.hpp"
-#include "core/statistics.hpp"
+#include "core/parallel.hpp"
 #include "core/status.hpp"
-#include "core/watch.hpp"
 #include "fe2d/contact/bond_law.hpp"
 #include "fe2d/rock/radiating_rock.hpp"
 #include "fe2d/run/base_water.hpp"
@@ -11,7 +9,6 @@
 #include "fe2d/run/dynamic_contact.hpp"
 #include "fe2d/run/explicit_contact.hpp"
 #include "fe2d/run/run_history.hpp"
-#include "fe2d/run/slide_watch.hpp"
 #include "fe2d/run/stages.hpp"
 #include "fe2d/time/energy.hpp"
 #include "records/record.hpp"
@@ -30,7 +27,7 @@ namespace damslip::fe2d {
 class EarthquakePass;
 class EarthquakeRun;
 class StepCorrector;
-struct CoupledModes; // fe2d/fluid/coupled_modes.hpp
+struct CoupledModes; // fe2d/fluid/coupled_system.hpp
 struct PassSteps;
 
 /// What the caller brings from other modules, and what only a run needs. All else is the scene's.

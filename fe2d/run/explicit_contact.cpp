@@ -1,7 +1,7 @@
 #include "fe2d/run/explicit_contact.hpp"
 
 #include "core/input_error.hpp"
-#include "core/watch.hpp"
+#include "core/parallel.hpp"
 #include "fe2d/run/earthquake_pass.hpp"
 #include "fe2d/run/ground_input.hpp"
 #include "fe2d/solver/dense_product.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "fe2d/run/crack_watch.hpp"
 #include "fe2d/run/dynamic_contact.hpp"
-#include "fe2d/run/slide_watch.hpp"
 
 #include <Eigen/Core>
 #include <cstdio>

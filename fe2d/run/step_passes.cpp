@@ -1,6 +1,6 @@
 #include "fe2d/run/step_passes.hpp"
 
-#include "fe2d/contact/two_levels.hpp"
+#include "core/version.hpp"
 
 #include <cassert>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/note.hpp"
+#include "core/status.hpp"
 
 #include <Eigen/SparseCore>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/note.hpp"
+#include "core/status.hpp"
 #include "fe2d/assembly/assemble.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "fe2d/time/linear_integrator.hpp"

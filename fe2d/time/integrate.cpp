@@ -3,7 +3,7 @@
 #include "core/input_error.hpp"
 #include "fe2d/fluid/coupled_system.hpp"
 #include "fe2d/fluid/fluid_model.hpp"
-#include "fe2d/time/base_coupling.hpp"
+#include "fe2d/time/structure_system.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,7 +1,7 @@
 #include "core/text.hpp"
 #include "records/read/agency_samples.hpp"
 #include "records/read/format.hpp"
-#include "records/read/record_text.hpp"
+#include "records/read/read_record.hpp"
 #include "records/transform/transform.hpp"
 
 #include <algorithm>

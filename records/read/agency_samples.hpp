@@ -3,7 +3,6 @@
 #include "records/read/header.hpp"
 #include "records/read/number_table.hpp"
 #include "records/read/read_record.hpp"
-#include "records/read/record_text.hpp"
 
 #include <optional>
 #include <span>

@@ -2,7 +2,7 @@
 
 #include "core/text.hpp"
 #include "core/units.hpp"
-#include "records/read/record_text.hpp"
+#include "records/read/read_record.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "records/read/record_text.hpp"
+#include "records/read/read_record.hpp"
 
 #include <functional>
 #include <optional>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "records/read/read_record.hpp"
-#include "records/read/record_text.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -4,7 +4,7 @@
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/text.hpp"
-#include "records/measure/response_spectrum.hpp"
+#include "records/measure/measures.hpp"
 
 #include <algorithm>
 #include <cmath>

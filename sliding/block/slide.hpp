@@ -1,7 +1,5 @@
 #pragma once
 
-#include "core/note.hpp"
-#include "core/statistics.hpp"
 #include "core/status.hpp"
 #include "records/record.hpp"
 #include "scene/anchor_bar.hpp"

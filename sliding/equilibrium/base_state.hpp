@@ -3,7 +3,7 @@
 #include "scene/anchor_bar.hpp"
 #include "scene/scene.hpp"
 #include "sliding/block/rigid_block.hpp"
-#include "sliding/loads/added_mass_integral.hpp"
+#include "sliding/loads/added_mass.hpp"
 #include "sliding/loads/static_loads.hpp"
 #include "sliding/uplift/uplift.hpp"
 

@@ -1,9 +1,9 @@
 #include "core/input_error.hpp"
 #include "core/units.hpp"
-#include "scene/drains.hpp"
 #include "scene/section.hpp"
 #include "scene/uplift_models.hpp"
-#include "sliding/block/yield.hpp"
+#include "scene/water.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "core/units.hpp"
 #include "scene/joint_bond.hpp"
 #include "scene/section.hpp"
-#include "sliding/block/yield.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/note.hpp"
-#include "scene/findings.hpp"
+#include "core/status.hpp"
+#include "scene/check.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 
 #include <optional>

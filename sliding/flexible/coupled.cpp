@@ -1,11 +1,10 @@
 #include "core/input_error.hpp"
 #include "core/text.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/roots.hpp"
 #include "sliding/block/slide.hpp"
 #include "sliding/block/slip_motion.hpp"
-#include "sliding/block/yield.hpp"
 #include "sliding/flexible/flexible_mode.hpp"
-#include "sliding/flexible/flexible_slide.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,10 @@
 #include "core/input_error.hpp"
 #include "scene/joint_bond.hpp"
 #include "scene/section.hpp"
-#include "sliding/block/yield.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/equilibrium/base_state.hpp"
-#include "sliding/loads/added_mass_integral.hpp"
-#include "sliding/planes/yield_scan.hpp"
+#include "sliding/loads/added_mass.hpp"
+#include "sliding/planes/chain.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/slide.hpp"
-#include "sliding/block/yield.hpp"
 #include "sliding/planes/chain.hpp"
 
 #include <vector>

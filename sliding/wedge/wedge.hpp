@@ -2,8 +2,8 @@
 
 #include "core/geometry.hpp"
 #include "records/record.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/slide_batch.hpp"
-#include "sliding/block/yield.hpp"
 
 #include <optional>
 

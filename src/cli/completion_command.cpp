@@ -1,8 +1,7 @@
-#include "cli/arguments.hpp"
 #include "cli/command.hpp"
-#include "core/version.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
+#include "core/version.hpp"
 
 #include <algorithm>
 #include <filesystem>

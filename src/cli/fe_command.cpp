@@ -1,18 +1,18 @@
 #include "analysis/fe/contact_runs.hpp"
+#include "analysis/fe/state_file.hpp"
 #include "analysis/fe/tied_runs.hpp"
 #include "analysis/fe/variants.hpp"
-#include "analysis/fe/state_file.hpp"
-#include "analysis/prepare/reducible.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "analysis/spectrum/spectrum_level.hpp"
 #include "cli/command.hpp"
-#include "cli/verifier.hpp"
 #include "cli/model_commands.hpp"
 #include "cli/terminal/terminal.hpp"
+#include "cli/verifier.hpp"
 #include "core/input_error.hpp"
 #include "pages/fe/fe_pages.hpp"
+#include "pages/modes/modes_pages.hpp"
 #include "pages/report/page.hpp"
-#include "pages/sheet/sheets.hpp"
-#include "pages/spectrum/spectrum_tables.hpp"
+#include "pages/sheet/workbook.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

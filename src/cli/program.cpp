@@ -1,11 +1,10 @@
 #include "cli/program.hpp"
 
-#include "cli/arguments.hpp"
+#include "cli/command.hpp"
 #include "cli/terminal/terminal.hpp"
 #include "cli/verifier.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
-#include "core/inputs_kept.hpp"
 #include "core/text.hpp"
 #include "fe2d/solver/linear_solver.hpp"
 #include "scene/read.hpp"

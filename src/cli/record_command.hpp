@@ -3,7 +3,7 @@
 #include "cli/terminal/terminal.hpp"
 #include "core/csv.hpp"
 #include "records/generate/generate.hpp"
-#include "records/measure/response_spectrum.hpp"
+#include "records/measure/measures.hpp"
 #include "records/read/read_record.hpp"
 #include "records/transform/transform.hpp"
 

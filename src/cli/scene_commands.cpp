@@ -7,15 +7,14 @@
 #include "core/status.hpp"
 #include "core/text.hpp"
 #include "pages/ablation/ablation_pages.hpp"
-#include "pages/explain/explain_page.hpp"
 #include "pages/fe/fe_pages.hpp"
 #include "pages/report/page.hpp"
 #include "pages/scene/scene_pages.hpp"
+#include "scene/planes.hpp"
 #include "scene/plausible.hpp"
 #include "scene/read.hpp"
 #include "scene/scene_text.hpp"
 #include "scene/water.hpp"
-#include "scene/planes.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>

@@ -11,12 +11,12 @@
 #include "core/text.hpp"
 #include "core/units.hpp"
 #include "pages/assess/assess_pages.hpp"
-#include "pages/report/json.hpp"
+#include "pages/report/answer.hpp"
 #include "pages/report/page.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
 #include "pages/screen/screen_pages.hpp"
-#include "pages/sheet/sheets.hpp"
+#include "pages/sheet/workbook.hpp"
 #include "scene/write.hpp"
 
 #include <algorithm>

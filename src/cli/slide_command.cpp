@@ -8,7 +8,7 @@
 #include "core/status.hpp"
 #include "core/text.hpp"
 #include "core/units.hpp"
-#include "pages/report/json.hpp"
+#include "pages/report/answer.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/screen/screen_pages.hpp"
 #include "records/read/header.hpp"

@@ -1,4 +1,4 @@
-#include "cli/worker_command.hpp"
+#include "cli/command.hpp"
 
 #include "analysis/sweep/sweep_run.hpp"
 #include "cli/command.hpp"

@@ -1,7 +1,6 @@
 #include "core/file.hpp"
 
 #include "core/input_error.hpp"
-#include "core/inputs_kept.hpp"
 
 #include <algorithm>
 #include <array>

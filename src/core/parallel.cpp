@@ -1,7 +1,5 @@
 #include "core/parallel.hpp"
 
-#include "core/watch.hpp"
-
 #include <algorithm>
 #include <atomic>
 #include <exception>

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 
 /// Texts of files and names on their way in and out.
 namespace damslip {
@@ -50,6 +54,14 @@ inline void append_shortest(std::string& text, double value)
     std::array<char, 32> buffer;
     const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
     text.append(buffer.data(), end);
+}
+
+/// The word that a list of all values has beside this one.
+template <class Value>
+const char* word_in(Value value, std::initializer_list<std::pair<std::type_identity_t<Value>, const char*>> words)
+{
+    const auto at = std::find_if(words.begin(), words.end(), [&](const auto& each) { return each.first == value; });
+    return at == words.end() ? "" : at->second;
 }
 
 } // namespace damslip

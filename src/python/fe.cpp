@@ -1,7 +1,5 @@
 // Finite elements: the runs of a scene with their histories, as arrays that lie in the result.
-#include "opened_scene.hpp"
-#include "result.hpp"
-#include "watched.hpp"
+#include "module.hpp"
 
 #include "analysis/fe/contact_runs.hpp"
 #include "analysis/fe/tied_runs.hpp"

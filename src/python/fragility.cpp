@@ -1,7 +1,5 @@
 // How likely the dam slides too far: curves, and every run as arrays that lie in the result.
-#include "opened_scene.hpp"
-#include "result.hpp"
-#include "watched.hpp"
+#include "module.hpp"
 
 #include "analysis/fragility/fragility_study.hpp"
 #include "core/input_error.hpp"

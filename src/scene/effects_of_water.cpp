@@ -1,7 +1,6 @@
 #include "scene/added_mass_formulas.hpp"
-#include "scene/drains.hpp"
+#include "scene/check.hpp"
 #include "scene/effect_plan.hpp"
-#include "scene/findings.hpp"
 #include "scene/joint_bond.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/water.hpp"

@@ -3,8 +3,8 @@
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/units.hpp"
-#include "scene/findings.hpp"
-#include "scene/key_table.hpp"
+#include "scene/check.hpp"
+#include "scene/keys.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include "core/intensity_measure.hpp"
-#include "scene/key_table.hpp"
+#include "scene/keys.hpp"
 
 namespace damslip {
 

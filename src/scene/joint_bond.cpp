@@ -1,7 +1,7 @@
 #include "scene/joint_bond.hpp"
 
-#include "scene/drains.hpp"
 #include "scene/uplift_models.hpp"
+#include "scene/water.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,4 @@
 #include "scene/joint_bond.hpp"
-#include "scene/key_table.hpp"
 #include "scene/keys.hpp"
 #include "scene/uplift_models.hpp"
 

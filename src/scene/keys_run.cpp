@@ -1,4 +1,3 @@
-#include "scene/key_table.hpp"
 #include "scene/keys.hpp"
 
 namespace damslip::keys {

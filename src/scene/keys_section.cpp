@@ -1,5 +1,4 @@
 #include "scene/added_mass_formulas.hpp"
-#include "scene/key_table.hpp"
 #include "scene/keys.hpp"
 
 namespace damslip::keys {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/input_error.hpp"
-#include "scene/key_table.hpp"
+#include "scene/keys.hpp"
 
 #include <optional>
 #include <span>

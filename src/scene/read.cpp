@@ -3,11 +3,9 @@
 #include "core/file.hpp"
 #include "core/text.hpp"
 #include "scene/check.hpp"
-#include "scene/findings.hpp"
 #include "scene/fragility_input.hpp"
-#include "scene/key_table.hpp"
-#include "scene/plausible.hpp"
 #include "scene/keys.hpp"
+#include "scene/plausible.hpp"
 
 #include <algorithm>
 #include <cctype>

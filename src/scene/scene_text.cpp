@@ -4,8 +4,7 @@
 #include "core/input_error.hpp"
 #include "core/text.hpp"
 #include "core/units.hpp"
-#include "scene/findings.hpp"
-#include "scene/key_table.hpp"
+#include "scene/check.hpp"
 #include "scene/keys.hpp"
 #include "scene/plausible.hpp"
 

@@ -1,7 +1,7 @@
 #include "scene/uplift_models.hpp"
 
-#include "scene/drains.hpp"
-#include "scene/findings.hpp"
+#include "scene/check.hpp"
+#include "scene/water.hpp"
 
 namespace damslip {
 

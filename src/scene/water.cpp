@@ -1,6 +1,5 @@
 #include "scene/water.hpp"
 
-#include "scene/drains.hpp"
 #include "scene/section.hpp"
 #include "scene/uplift_models.hpp"
 

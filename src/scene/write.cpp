@@ -2,7 +2,7 @@
 
 #include "core/file.hpp"
 #include "core/text.hpp"
-#include "scene/key_table.hpp"
+#include "scene/keys.hpp"
 #include "scene/mesh_sizes.hpp"
 #include "scene/plausible.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/key_table.hpp"
+#include "scene/keys.hpp"
 #include "scene/scene.hpp"
 
 #include <string>

@@ -4,7 +4,6 @@
 #include "analysis/prepare/reservoir.hpp"
 #include "analysis/sweep/sweep_axes.hpp"
 #include "fe2d/damping/damping.hpp"
-#include "fe2d/modes/natural_modes.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "scene/rock_mass.hpp"
 

@@ -1,8 +1,6 @@
 // What comes in and goes out by the doors of the program: names, lines, files, flags.
-#include "cli/arguments.hpp"
 #include "cli/command.hpp"
 #include "cli/verifier.hpp"
-#include "cli/worker_command.hpp"
 #include "core/csv.hpp"
 #include "core/file.hpp"
 #include "core/text.hpp"

@@ -4,7 +4,7 @@
 #include "analysis/fragility/fragility_estimate.hpp"
 #include "analysis/fragility/hazard_file.hpp"
 #include "core/input_error.hpp"
-#include "records/generate/target_spectrum.hpp"
+#include "records/generate/wavelet_match.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,6 @@
 #include "key_scenes.hpp"
 
 #include "scene/keys.hpp"
-#include "scene/key_table.hpp"
 #include "scene/read.hpp"
 #include "scene/write.hpp"
 

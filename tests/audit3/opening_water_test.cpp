@@ -1,6 +1,6 @@
 // Opening water under the rigid block (D8, A14, D7): the slip does not depend on where the record has samples.
 #include "analysis/prepare/rigid_model.hpp"
-#include "sliding/flexible/flexible_slide.hpp"
+#include "sliding/flexible/flexible_mode.hpp"
 
 #include <chrono>
 #include <cmath>

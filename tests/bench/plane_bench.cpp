@@ -5,7 +5,7 @@
 // the angle of the wedge searched.
 #include "analysis/prepare/plane_model.hpp"
 #include "analysis/screen/screening.hpp"
-#include "core/watch.hpp"
+#include "core/parallel.hpp"
 #include "scene/read.hpp"
 #include "source_dir.hpp"
 #include "verification/exact/reference_scene.hpp"

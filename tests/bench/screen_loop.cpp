@@ -1,7 +1,7 @@
 // A loop of screenings over friction, for tests/bench/screen_loop.py to be compared with.  screen_loop SCENE COUNT
 // Processor time by call [ms]: key set, scene checked, records read, screened on one thread.
 #include "analysis/screen/screening.hpp"
-#include "core/watch.hpp"
+#include "core/parallel.hpp"
 #include "scene/scene_text.hpp"
 
 #include <cstdio>

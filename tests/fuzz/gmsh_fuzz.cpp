@@ -1,10 +1,9 @@
 // Gmsh files: any bytes either give a file whose nodes and elements keep the promises of gmsh_file.hpp, and a mesh of the scene or an
 // InputError. What was read and has one group for each element is written in both versions and must read back alike.
 #include "core/input_error.hpp"
-#include "fe2d/gmsh/read_gmsh.hpp"
-#include "fe2d/gmsh/write_gmsh.hpp"
-#include "fe2d/mesh/import_mesh.hpp"
+#include "fe2d/gmsh/gmsh.hpp"
 #include "fe2d/mesh/faces.hpp"
+#include "fe2d/mesh/import_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // read is written in both own formats and must read back bit for bit.
 #include "core/input_error.hpp"
 #include "records/read/read_record.hpp"
-#include "records/write/write_record.hpp"
+#include "records/record.hpp"
 
 #include <cmath>
 #include <cstdint>

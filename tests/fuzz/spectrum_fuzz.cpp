@@ -1,6 +1,6 @@
 // Target spectra: any bytes give a shape that is finite and positive at every period, or an InputError.
 #include "core/input_error.hpp"
-#include "records/generate/target_spectrum.hpp"
+#include "records/generate/wavelet_match.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Gmsh files that are wrong, and the words their users read: every way in which a file is refused, on a dam of two elements on a
 // rock of six.
 #include "core/input_error.hpp"
-#include "fe2d/gmsh/read_gmsh.hpp"
+#include "fe2d/gmsh/gmsh.hpp"
 #include "fe2d/mesh/import_mesh.hpp"
 #include "scene/read.hpp"
 

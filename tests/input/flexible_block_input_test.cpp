@@ -1,7 +1,7 @@
 // Flexible blocks that cannot be, through the library; strength that changes with slip; periods beyond reason.
 #include "core/input_error.hpp"
 #include "scene/read.hpp"
-#include "sliding/flexible/flexible_slide.hpp"
+#include "sliding/flexible/flexible_mode.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "cli/record_command.hpp"
 #include "core/input_error.hpp"
 #include "pages/record/record_tables.hpp"
-#include "records/generate/target_spectrum.hpp"
+#include "records/generate/wavelet_match.hpp"
 #include "source_dir.hpp"
 
 #include <functional>

@@ -1,7 +1,7 @@
 #include "drawn_scene.hpp"
 
 #include "scene/section.hpp"
-#include "sliding/block/yield.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 
 #include <algorithm>

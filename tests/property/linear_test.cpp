@@ -1,10 +1,10 @@
 // Below the limit everything is linear: the tied dam in its record and in its loads, and the dam that neither slips nor
 // opens is the tied one.
 #include "drawn_scene.hpp"
-#include "fe2d/rock/reduced_rock.hpp"
+#include "fe2d/model/model.hpp"
 #include "fe2d/rock/radiating_rock.hpp"
+#include "fe2d/rock/reduced_rock.hpp"
 #include "fe2d/run/earthquake_run.hpp"
-#include "fe2d/model/static_solution.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "scene/rock_mass.hpp"
 #include "verification/cases/fe_run_scenes.hpp"

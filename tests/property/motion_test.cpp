@@ -2,8 +2,8 @@
 #include "drawn_scene.hpp"
 #include "fe2d/run/stages.hpp"
 #include "scene/rock_mass.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/slide.hpp"
-#include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 

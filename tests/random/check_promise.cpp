@@ -1,7 +1,7 @@
 #include "random/check_promise.hpp"
 
+#include "cli/command.hpp"
 #include "cli/program.hpp"
-#include "cli/worker_command.hpp"
 #include "core/file.hpp"
 #include "core/status.hpp"
 #include "scene/keys.hpp"

@@ -2,7 +2,7 @@
 
 #include "core/file.hpp"
 #include "random/random_motion.hpp"
-#include "scene/key_table.hpp"
+#include "scene/keys.hpp"
 #include "source_dir.hpp"
 
 #include <fmt/format.h>

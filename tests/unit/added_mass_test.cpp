@@ -1,5 +1,5 @@
 // Added mass: pointwise values, totals and the tensor on inclined faces, against closed forms.
-#include "sliding/loads/added_mass_integral.hpp"
+#include "sliding/loads/added_mass.hpp"
 
 #include "core/input_error.hpp"
 #include "core/units.hpp"

@@ -3,7 +3,7 @@
 #include "pages/screen/screen_pages.hpp"
 #include "program_answer.hpp"
 #include "scene/read.hpp"
-#include "sliding/flexible/flexible_slide.hpp"
+#include "sliding/flexible/flexible_mode.hpp"
 #include "verification/exact/flexible_slip.hpp"
 
 #include <gtest/gtest.h>

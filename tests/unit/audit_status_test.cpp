@@ -1,7 +1,6 @@
 // One list of statuses in all commands: what is printed, whether there is a slip, which exit code follows.
 #include "analysis/accuracy/model_level_runner.hpp"
 #include "analysis/prepare/ready.hpp"
-#include "analysis/prepare/reducible.hpp"
 #include "analysis/screen/screening.hpp"
 #include "analysis/sweep/sweep_grid.hpp"
 #include "core/status.hpp"

@@ -1,7 +1,7 @@
 // Blocks of constant yield and the batches: same bits with and without skipping, same slip as the general integrator.
 #include "block_motions.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/slide_batch.hpp"
-#include "sliding/block/yield.hpp"
 #include "verification/exact/block_slip.hpp"
 
 #include <gtest/gtest.h>

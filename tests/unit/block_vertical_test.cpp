@@ -1,8 +1,8 @@
 // Vertical ground motion, lift-off with and without flight, inclined base.
 #include "block_motions.hpp"
 #include "core/input_error.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/slide.hpp"
-#include "sliding/block/yield.hpp"
 #include "verification/exact/block_slip.hpp"
 
 #include <gtest/gtest.h>

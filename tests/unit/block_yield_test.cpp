@@ -1,7 +1,7 @@
 // Yield accelerations of the rigid block: closed forms of one vertical face, the 2 x 2 added mass, limits.
 #include "block_motions.hpp"
 #include "core/input_error.hpp"
-#include "sliding/block/yield.hpp"
+#include "sliding/block/rigid_block.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
 // Moduli from frequencies: those of a scene lead back to its moduli.
-#include "analysis/modes/calibrate.hpp"
 #include "analysis/modes/modes.hpp"
 #include "core/input_error.hpp"
 #include "program_answer.hpp"

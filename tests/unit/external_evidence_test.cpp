@@ -1,7 +1,7 @@
 // Results of others: what is in the program, and SLAMMER's schemes against the exact analyses they approximate.
 #include "verifier_answer.hpp"
 
-#include "sliding/flexible/flexible_slide.hpp"
+#include "sliding/flexible/flexible_mode.hpp"
 #include "verification/external/external.hpp"
 #include "verification/external/slammer_scheme.hpp"
 

@@ -1,9 +1,9 @@
 // Decks for CalculiX, and its printed results. That both programs agree is tested by scripts/second-solver.sh.
-#include "verification/second_solver/read_dat.hpp"
 #include "core/input_error.hpp"
-#include "fe2d/assembly/surface_load.hpp"
-#include "verification/second_solver/deck.hpp"
+#include "fe2d/assembly/assemble.hpp"
 #include "fe_scenes.hpp"
+#include "verification/second_solver/deck.hpp"
+#include "verification/second_solver/read_dat.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Soft exponential normal contact in statics and in the earthquake run.
 #include "verification/cases/fe_run_scenes.hpp"
 
-#include "fe2d/contact/exponential_normal.hpp"
+#include "fe2d/contact/joint_law.hpp"
 
 #include <gtest/gtest.h>
 

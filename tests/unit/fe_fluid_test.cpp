@@ -1,11 +1,10 @@
 // Acoustic water: coupling of non-matching faces, inertia of the step matrix, the absorbing end's unknowns.
-#include "fe2d/fluid/coupled_modes.hpp"
 #include "fe2d/fluid/coupled_system.hpp"
 #include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/solver/linear_solver.hpp"
-#include "fe2d/time/structure_system.hpp"
 #include "fe2d/time/energy.hpp"
 #include "fe2d/time/integrate.hpp"
+#include "fe2d/time/structure_system.hpp"
 #include "fe_scenes.hpp"
 
 #include <gtest/gtest.h>

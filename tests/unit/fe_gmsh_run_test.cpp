@@ -1,6 +1,6 @@
 // Contact runs on imported meshes: the slip of the program's own mesh, read from a file.
 #include "core/file.hpp"
-#include "fe2d/gmsh/write_gmsh.hpp"
+#include "fe2d/gmsh/gmsh.hpp"
 #include "fe2d/mesh/mesh.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "fe_scenes.hpp"

@@ -1,13 +1,12 @@
 // Meshes through Gmsh files and back: the same mesh.
-#include "fe2d/gmsh/read_gmsh.hpp"
-#include "fe2d/gmsh/write_gmsh.hpp"
-#include "fe2d/mesh/mesh.hpp"
+#include "fe2d/gmsh/gmsh.hpp"
 #include "fe2d/mesh/import_mesh.hpp"
+#include "fe2d/mesh/mesh.hpp"
 #include "fe_scenes.hpp"
 #include "scene/read.hpp"
 #include "scene/write.hpp"
-#include "verification/cases/mixed_mesh.hpp"
 #include "source_dir.hpp"
+#include "verification/cases/mixed_mesh.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Lift joints in the mesh and the unknowns: nodes twice, faces through both, tied = uncracked.
+#include "fe2d/damping/damping.hpp"
 #include "fe2d/mesh/build_mesh.hpp"
 #include "fe2d/mesh/faces.hpp"
-#include "fe2d/model/static_solution.hpp"
-#include "fe2d/modes/natural_modes.hpp"
+#include "fe2d/model/model.hpp"
 #include "fe_scenes.hpp"
 
 #include <gtest/gtest.h>

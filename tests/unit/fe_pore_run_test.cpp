@@ -1,7 +1,6 @@
 // Water in the rock (stages.pore_pressure) under a dam that may slide.
 #include "analysis/prepare/ready.hpp"
-#include "analysis/prepare/reducible.hpp"
-#include "fe2d/model/static_solution.hpp"
+#include "fe2d/model/model.hpp"
 #include "pages/fe/fe_pages.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 

@@ -1,8 +1,8 @@
 // Quadratic elements: what the mesh gives them, masses, loads and coupling on quadratic faces, cells of the output.
 #include "core/file.hpp"
-#include "fe2d/element/quadratic.hpp"
+#include "fe2d/element/elastic.hpp"
 #include "fe2d/fluid/fluid_model.hpp"
-#include "fe2d/model/static_solution.hpp"
+#include "fe2d/model/model.hpp"
 #include "fe2d/output/vtu.hpp"
 #include "fe2d/run/contact_planes.hpp"
 #include "fe_scenes.hpp"

@@ -1,8 +1,7 @@
 // The reduced run against the full one.
 #include "core/file.hpp"
-#include "fe2d/reduction/corrected_run.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
-#include "fe2d/run/step_error.hpp"
+#include "fe2d/run/earthquake_pass.hpp"
 #include "scene/rock_mass.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 

@@ -1,5 +1,5 @@
 // Sliding on rock with mass: what a run hands to reports, and runs that no step can be made of.
-#include "fe2d/model/static_solution.hpp"
+#include "fe2d/model/model.hpp"
 #include "program_answer.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 

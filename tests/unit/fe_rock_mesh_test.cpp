@@ -1,5 +1,5 @@
 // The rock's side of the contact plane with an element size of its own.
-#include "fe2d/assembly/surface_load.hpp"
+#include "fe2d/assembly/assemble.hpp"
 #include "fe2d/mesh/faces.hpp"
 #include "fe2d/model/model.hpp"
 #include "fe_scenes.hpp"

@@ -1,8 +1,8 @@
 // Parts of the staged run: factor with the interface last, condensed rock, products, resultants.
-#include "fe2d/modes/natural_modes.hpp"
-#include "fe2d/run/node_products.hpp"
-#include "fe2d/run/contact_structure.hpp"
+#include "fe2d/damping/damping.hpp"
 #include "fe2d/fluid/fluid_model.hpp"
+#include "fe2d/run/contact_structure.hpp"
+#include "fe2d/run/node_products.hpp"
 #include "fe2d/solver/dense_product.hpp"
 #include "fe2d/time/condensation.hpp"
 #include "fe2d/time/structure_system.hpp"

@@ -3,8 +3,8 @@
 #include "verification/cases/fe_run_scenes.hpp"
 
 #include "scene/scene_text.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/slide.hpp"
-#include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include "analysis/sweep/fe_sweep.hpp"
 #include "analysis/sweep/sweep_run.hpp"
 #include "core/input_error.hpp"
-#include "core/watch.hpp"
+#include "core/parallel.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "scene/scene_text.hpp"
 #include "sliding/planes/seam.hpp"

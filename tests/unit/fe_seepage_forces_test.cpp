@@ -1,7 +1,6 @@
 // Pore pressure as forces: the total and the effective form are the same.
 #include "fe2d/assembly/assemble.hpp"
 #include "fe2d/mesh/build_mesh.hpp"
-#include "fe2d/seepage/seepage_mesh.hpp"
 #include "fe2d/seepage/seepage.hpp"
 #include "fe_scenes.hpp"
 

@@ -1,7 +1,7 @@
 // When sliding with the ground at rest is self-excited: made-up histories on both sides of every criterion, and small dams.
 #include "fe2d/reduction/reduced_run.hpp"
+#include "fe2d/run/crack_watch.hpp"
 #include "fe2d/run/earthquake_pass.hpp"
-#include "fe2d/run/slide_watch.hpp"
 #include "program_answer.hpp"
 #include "scene/write.hpp"
 #include "verification/cases/fe_run_scenes.hpp"

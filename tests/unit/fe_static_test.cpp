@@ -1,7 +1,7 @@
 // Static loads and stages: resultants, equilibrium, stresses, the zero-displacement start, what is not in the scene is
 // not in the model.
 #include "core/input_error.hpp"
-#include "fe2d/model/static_solution.hpp"
+#include "fe2d/model/model.hpp"
 #include "fe_scenes.hpp"
 #include "scene/section.hpp"
 

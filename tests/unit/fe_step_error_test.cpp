@@ -1,5 +1,5 @@
 // Error in the step from slips with several steps.
-#include "fe2d/run/step_error.hpp"
+#include "fe2d/run/earthquake_pass.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Earthquake runs of a dam tied to its base.
 #include "core/input_error.hpp"
-#include "fe2d/model/static_solution.hpp"
+#include "fe2d/model/model.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "fe_scenes.hpp"
 #include "verification/exact/oscillator.hpp"

@@ -4,7 +4,7 @@
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "scene/fragility_input.hpp"
-#include "scene/key_table.hpp"
+#include "scene/keys.hpp"
 #include "scene/read.hpp"
 #include "scene/scene_text.hpp"
 #include "source_dir.hpp"

@@ -3,7 +3,7 @@
 #include "csv_rows.hpp"
 #include "pulse_study.hpp"
 
-#include "records/measure/response_spectrum.hpp"
+#include "records/measure/measures.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -3,7 +3,6 @@
 #include "pulse_scene.hpp"
 
 #include "analysis/fragility/fragility_study.hpp"
-#include "analysis/fragility/interval_cost.hpp"
 
 #include "core/file.hpp"
 #include "core/input_error.hpp"

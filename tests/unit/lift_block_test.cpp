@@ -1,6 +1,6 @@
 // The rigid block above a lift joint against sums by hand.
 #include "scene/read.hpp"
-#include "sliding/block/yield.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // What solvers have to say: every kind has a sentence that takes its values.
-#include "core/note.hpp"
+#include "core/status.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
 #include "core/parallel.hpp"
-#include "core/watch.hpp"
 
 #include <gtest/gtest.h>
 #include <set>

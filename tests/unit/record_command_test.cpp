@@ -2,8 +2,8 @@
 #include "program_answer.hpp"
 
 #include "core/file.hpp"
-#include "records/generate/target_spectrum.hpp"
-#include "records/measure/response_spectrum.hpp"
+#include "records/generate/wavelet_match.hpp"
+#include "records/measure/measures.hpp"
 #include "records/read/read_record.hpp"
 
 #include <gtest/gtest.h>

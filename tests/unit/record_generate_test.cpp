@@ -3,10 +3,8 @@
 #include "core/file.hpp"
 #include "records/generate/generate.hpp"
 #include "records/generate/wavelet_match.hpp"
-#include "records/generate/target_spectrum.hpp"
 #include "records/measure/measures.hpp"
-#include "records/measure/response_spectrum.hpp"
-#include "records/write/write_record.hpp"
+#include "records/record.hpp"
 #include "source_dir.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // Every way a good file may look, and that what is read is what is written.
 #include "core/input_error.hpp"
 #include "records/read/read_record.hpp"
-#include "records/write/write_record.hpp"
+#include "records/record.hpp"
 
 #include <cmath>
 #include <cstdio>

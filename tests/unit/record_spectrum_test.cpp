@@ -1,5 +1,5 @@
 // Response spectra against closed solutions of the oscillator on piecewise-linear ground acceleration.
-#include "records/measure/response_spectrum.hpp"
+#include "records/measure/measures.hpp"
 #include "verification/exact/oscillator.hpp"
 
 #include <algorithm>

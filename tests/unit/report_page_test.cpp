@@ -1,9 +1,7 @@
 #include "core/file.hpp"
 #include "pages/report/answer.hpp"
-#include "pages/report/page.hpp"
 #include "pages/report/chart.hpp"
-#include "pages/report/json.hpp"
-#include "pages/report/picture.hpp"
+#include "pages/report/page.hpp"
 #include "source_dir.hpp"
 
 #include <gtest/gtest.h>

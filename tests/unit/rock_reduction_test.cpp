@@ -1,4 +1,4 @@
-#include "fe2d/rock/frequency_solver.hpp"
+#include "fe2d/harmonic/transfer.hpp"
 #include "fe2d/rock/reduced_rock.hpp"
 #include "fe2d/solver/linear_solver.hpp"
 #include "rock_scenes.hpp"

@@ -1,7 +1,7 @@
 // Slip on a seam with a passive wedge under a shipped record, against an independent integration of the chain of blocks.
 #include "records/read/read_record.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/slide.hpp"
-#include "sliding/block/yield.hpp"
 #include "sliding/planes/seam.hpp"
 #include "source_dir.hpp"
 #include "verification/exact/reference_scene.hpp"

@@ -2,8 +2,7 @@
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "records/generate/generate.hpp"
-#include "records/generate/seed_list.hpp"
-#include "records/write/write_record.hpp"
+#include "records/record.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

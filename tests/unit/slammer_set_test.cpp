@@ -3,9 +3,9 @@
 // beside the source as ../shared/slammer; without it these tests are skipped. The exact integration is of every third
 // decoupled analysis; DAMSLIP_SLAMMER_EVERY=1 takes all (20 s in place of 7 s of processor time).
 #include "core/parallel.hpp"
-#include "sliding/flexible/flexible_slide.hpp"
-#include "verification/exact/flexible_slip.hpp"
+#include "sliding/flexible/flexible_mode.hpp"
 #include "source_dir.hpp"
+#include "verification/exact/flexible_slip.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

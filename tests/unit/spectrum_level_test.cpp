@@ -1,6 +1,6 @@
 #include "analysis/spectrum/spectrum_level.hpp"
-#include "fe2d/modes/natural_modes.hpp"
-#include "records/measure/response_spectrum.hpp"
+#include "fe2d/damping/damping.hpp"
+#include "records/measure/measures.hpp"
 #include "scene/read.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Measures of a suite, kept beside it: the same doubles, worked out once.
 #include "core/file.hpp"
-#include "records/measure/response_spectrum.hpp"
+#include "records/measure/measures.hpp"
 #include "records/suite/suite.hpp"
 
 #include <cmath>

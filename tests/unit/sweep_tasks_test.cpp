@@ -2,7 +2,7 @@
 #include "analysis/prepare/rigid_model.hpp"
 #include "analysis/sweep/sweep_axes.hpp"
 #include "analysis/sweep/sweep_grid.hpp"
-#include "cli/sweep_plan.hpp"
+#include "cli/sweep_command.hpp"
 #include "scene/read.hpp"
 #include "source_dir.hpp"
 

@@ -1,5 +1,5 @@
 // Sweeps as a user runs them: the same bytes for any threads, parts, stops and resumptions.
-#include "cli/sweep_plan.hpp"
+#include "cli/sweep_command.hpp"
 #include "store_changes.hpp"
 #include "sweep_scene.hpp"
 

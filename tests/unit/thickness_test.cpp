@@ -1,9 +1,9 @@
 // Section::thickness against numbers by hand, and against a dam of two materials.
 #include "core/input_error.hpp"
 #include "fe2d/assembly/assemble.hpp"
-#include "fe2d/element/quadratic.hpp"
+#include "fe2d/damping/damping.hpp"
+#include "fe2d/element/elastic.hpp"
 #include "fe2d/model/model.hpp"
-#include "fe2d/modes/natural_modes.hpp"
 #include "scene/read.hpp"
 #include "scene/section.hpp"
 #include "scene/write.hpp"

@@ -1,4 +1,4 @@
-#include "cli/worker_command.hpp"
+#include "cli/command.hpp"
 #include "core/input_error.hpp"
 #include "scene/scene_text.hpp"
 #include "sweep_scene.hpp"

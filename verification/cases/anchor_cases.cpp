@@ -1,5 +1,5 @@
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/slide_batch.hpp"
-#include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/limit_equilibrium.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/reference_scene.hpp"

@@ -1,6 +1,6 @@
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/slide.hpp"
 #include "sliding/block/slide_batch.hpp"
-#include "sliding/block/yield.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/block_slip.hpp"
 

@@ -1,4 +1,4 @@
-#include "sliding/block/yield.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/equilibrium/limit_equilibrium.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/cracked_base.hpp"

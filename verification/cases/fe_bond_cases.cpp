@@ -1,9 +1,9 @@
 #include "verification/cases/modules.hpp"
 
 #include "fe2d/contact/bond_law.hpp"
-#include "fe2d/run/strength.hpp"
+#include "fe2d/run/stages.hpp"
 #include "fe2d/run/static_contact.hpp"
-#include "fe2d/run/static_relaxation.hpp"
+#include "fe2d/run/strength.hpp"
 #include "fe2d/solver/dense_product.hpp"
 #include "scene/joint_bond.hpp"
 #include "verification/cases/fe_run_scenes.hpp"

@@ -1,5 +1,5 @@
 #include "fe2d/element/elastic.hpp"
-#include "fe2d/model/static_solution.hpp"
+#include "fe2d/model/model.hpp"
 #include "verification/cases/fe_prescribed.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/elastic_wedge.hpp"

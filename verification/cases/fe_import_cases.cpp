@@ -1,12 +1,11 @@
 // Imported meshes: what a mesh generator delivers, read from the text of a Gmsh file, against exact solutions and against the
 // program's own mesh.
 #include "fe2d/assembly/assemble.hpp"
-#include "fe2d/gmsh/read_gmsh.hpp"
-#include "fe2d/gmsh/write_gmsh.hpp"
-#include "fe2d/mesh/mesh.hpp"
+#include "fe2d/damping/damping.hpp"
+#include "fe2d/gmsh/gmsh.hpp"
 #include "fe2d/mesh/import_mesh.hpp"
-#include "fe2d/model/static_solution.hpp"
-#include "fe2d/modes/natural_modes.hpp"
+#include "fe2d/mesh/mesh.hpp"
+#include "fe2d/model/model.hpp"
 #include "fe2d/solver/dense_product.hpp"
 #include "scene/section.hpp"
 #include "verification/cases/mixed_mesh.hpp"

@@ -1,6 +1,6 @@
 #include "fe2d/assembly/assemble.hpp"
+#include "fe2d/model/model.hpp"
 #include "fe2d/run/contact_structure.hpp"
-#include "fe2d/model/static_solution.hpp"
 #include "verification/cases/modules.hpp"
 
 #include <Eigen/SparseCholesky>

@@ -1,5 +1,5 @@
 #include "fe2d/reduction/reduced_run.hpp"
-#include "fe2d/run/step_error.hpp"
+#include "fe2d/run/earthquake_pass.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 #include "verification/cases/modules.hpp"
 

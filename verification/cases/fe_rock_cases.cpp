@@ -1,7 +1,6 @@
 #include "verification/cases/modules.hpp"
 
 #include "fe2d/model/model.hpp"
-#include "fe2d/model/static_solution.hpp"
 #include "fe2d/time/central_difference.hpp"
 #include "fe2d/time/modal_run.hpp"
 #include "scene/rock_mass.hpp"

@@ -4,11 +4,11 @@
 #include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/harmonic/transfer.hpp"
 #include "fe2d/model/model.hpp"
-#include "fe2d/rock/reduced_rock.hpp"
 #include "fe2d/rock/radiating_rock.hpp"
+#include "fe2d/rock/reduced_rock.hpp"
 #include "fe2d/solver/dense_product.hpp"
-#include "fe2d/time/base_coupling.hpp"
 #include "fe2d/time/integrate.hpp"
+#include "fe2d/time/structure_system.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 #include "verification/exact/half_plane.hpp"
 

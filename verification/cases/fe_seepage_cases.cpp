@@ -2,7 +2,6 @@
 
 #include "fe2d/assembly/assemble.hpp"
 #include "fe2d/mesh/build_mesh.hpp"
-#include "fe2d/seepage/seepage_mesh.hpp"
 #include "fe2d/seepage/seepage.hpp"
 #include "verification/exact/seepage.hpp"
 

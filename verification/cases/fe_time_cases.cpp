@@ -1,7 +1,7 @@
 #include "verification/cases/modules.hpp"
 
 #include "fe2d/damping/damping.hpp"
-#include "fe2d/model/static_solution.hpp"
+#include "fe2d/model/model.hpp"
 #include "fe2d/solver/dense_product.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "verification/cases/fe_time_models.hpp"

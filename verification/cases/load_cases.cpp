@@ -1,6 +1,6 @@
 #include "scene/section.hpp"
 #include "sliding/equilibrium/limit_equilibrium.hpp"
-#include "sliding/loads/added_mass_integral.hpp"
+#include "sliding/loads/added_mass.hpp"
 #include "sliding/loads/static_loads.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/added_mass.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe2d/gmsh/write_gmsh.hpp"
+#include "fe2d/gmsh/gmsh.hpp"
 
 namespace damslip::verification {
 

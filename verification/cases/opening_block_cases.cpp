@@ -1,8 +1,8 @@
 #include "verification/cases/modules.hpp"
 
 #include "scene/section.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/slide.hpp"
-#include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 #include "verification/exact/reference_scene.hpp"
 

@@ -1,7 +1,6 @@
 #include "scene/section.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/slide.hpp"
-#include "sliding/block/yield.hpp"
-#include "sliding/planes/joint_motion.hpp"
 #include "sliding/planes/lifts.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/reference_scene.hpp"

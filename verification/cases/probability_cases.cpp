@@ -2,11 +2,9 @@
 #include "probability/annual_rate.hpp"
 #include "probability/distribution.hpp"
 #include "probability/fit.hpp"
-#include "probability/fragility_files.hpp"
 #include "probability/sampling.hpp"
-#include "probability/sensitivity.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/slide.hpp"
-#include "sliding/block/yield.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/block_slip.hpp"
 

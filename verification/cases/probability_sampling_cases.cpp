@@ -1,8 +1,7 @@
-#include "core/statistics.hpp"
+#include "core/status.hpp"
 #include "probability/distribution.hpp"
 #include "probability/fit.hpp"
 #include "probability/sampling.hpp"
-#include "probability/sensitivity.hpp"
 #include "verification/cases/modules.hpp"
 
 #include <array>

@@ -1,7 +1,6 @@
 // Accelerograms: measures and spectra against closed solutions, and the shipped artificial records against their targets.
 #include "records/generate/generate.hpp"
 #include "records/measure/measures.hpp"
-#include "records/measure/response_spectrum.hpp"
 #include "records/transform/transform.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/oscillator.hpp"

@@ -1,4 +1,4 @@
-#include "sliding/block/yield.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 #include "sliding/rocking/rocking.hpp"
 #include "sliding/rocking/rocking_motion.hpp"

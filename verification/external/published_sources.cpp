@@ -1,4 +1,4 @@
-#include "analysis/modes/calibrate.hpp"
+#include "analysis/modes/modes.hpp"
 #include "scene/read.hpp"
 #include "verification/cases/registry.hpp"
 #include "verification/external/slammer_set.hpp"

@@ -3,7 +3,6 @@
 #include "sliding/block/slide.hpp"
 #include "sliding/block/slide_batch.hpp"
 #include "sliding/flexible/flexible_mode.hpp"
-#include "sliding/flexible/flexible_slide.hpp"
 #include "verification/external/slammer_set.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe2d/assembly/surface_load.hpp"
+#include "fe2d/assembly/assemble.hpp"
 #include "fe2d/damping/damping.hpp"
 #include "fe2d/model/model.hpp"
 #include "records/record.hpp"

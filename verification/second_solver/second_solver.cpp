@@ -1,13 +1,13 @@
 #include "verification/second_solver/second_solver.hpp"
 
 #include "analysis/fe/tied_runs.hpp"
-#include "verification/second_solver/read_dat.hpp"
 #include "core/input_error.hpp"
-#include "verification/second_solver/deck.hpp"
-#include "fe2d/modes/natural_modes.hpp"
+#include "fe2d/damping/damping.hpp"
 #include "fe2d/run/strength.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "scene/water.hpp"
+#include "verification/second_solver/deck.hpp"
+#include "verification/second_solver/read_dat.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/prepare/ready.hpp"
-#include "core/watch.hpp"
+#include "core/parallel.hpp"
 
 #include <string>
 #include <string_view>

@@ -2,7 +2,7 @@
 
 #include "analysis/accuracy/hierarchy.hpp"
 #include "analysis/fe/mesh_error.hpp"
-#include "core/watch.hpp"
+#include "core/parallel.hpp"
 #include "scene/joint_bond.hpp"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "analysis/accuracy/hierarchy.hpp"
-#include "analysis/accuracy/model_level.hpp"
 #include "analysis/accuracy/model_level_runner.hpp"
 #include "scene/scene.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "analysis/accuracy/accuracy.hpp"
 #include "analysis/fe/mesh_error.hpp"
-#include "analysis/prepare/reducible.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "core/units.hpp"
 #include "scene/joint_bond.hpp"
 #include "scene/rock_mass.hpp"

@@ -3,7 +3,7 @@
 #include "analysis/ablation/ablation.hpp"
 #include "analysis/screen/screening.hpp"
 #include "analysis/spectrum/spectrum_level.hpp"
-#include "core/watch.hpp"
+#include "core/parallel.hpp"
 
 #include <map>
 #include <optional>

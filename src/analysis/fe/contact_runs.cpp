@@ -1,6 +1,6 @@
 #include "analysis/fe/contact_runs.hpp"
 
-#include "analysis/prepare/fe_joints.hpp"
+#include "analysis/prepare/plane_model.hpp"
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
 #include "fe2d/run/earthquake_run.hpp"

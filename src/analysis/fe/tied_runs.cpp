@@ -1,10 +1,9 @@
 #include "analysis/fe/tied_runs.hpp"
 
 #include "analysis/prepare/ready.hpp"
-#include "analysis/prepare/reducible.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
-#include "core/watch.hpp"
+#include "core/parallel.hpp"
 #include "fe2d/rock/radiating_rock.hpp"
 #include "fe2d/rock/reduced_rock.hpp"
 #include "fe2d/time/central_difference.hpp"

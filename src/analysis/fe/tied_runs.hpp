@@ -3,7 +3,6 @@
 #include "analysis/fe/contact_runs.hpp"
 #include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/model/model.hpp"
-#include "fe2d/model/static_solution.hpp"
 #include "fe2d/rock/radiating_rock.hpp"
 #include "fe2d/time/energy.hpp"
 

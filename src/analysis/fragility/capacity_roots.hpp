@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/fragility/fragility_estimate.hpp"
-#include "probability/fragility_files.hpp"
-#include "probability/sensitivity.hpp"
+#include "probability/annual_rate.hpp"
+#include "probability/sampling.hpp"
 
 namespace damslip {
 

@@ -2,10 +2,10 @@
 
 #include "analysis/fragility/fragility_estimate.hpp"
 #include "core/input_error.hpp"
-#include "core/watch.hpp"
-#include "probability/fit.hpp"
+#include "core/parallel.hpp"
 #include "probability/annual_rate.hpp"
 #include "probability/distribution.hpp"
+#include "probability/fit.hpp"
 #include "probability/sampling.hpp"
 #include "scene/write.hpp"
 

@@ -8,7 +8,6 @@
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
 #include "core/version.hpp"
-#include "core/watch.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "scene/scene_text.hpp"
 #include "scene/write.hpp"

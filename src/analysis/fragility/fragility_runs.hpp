@@ -3,7 +3,7 @@
 #include "analysis/fragility/fragility_plan.hpp"
 #include "analysis/sweep/result_store.hpp"
 #include "analysis/sweep/sweep_axes.hpp"
-#include "core/watch.hpp"
+#include "core/parallel.hpp"
 
 #include <array>
 

@@ -1,10 +1,10 @@
 #include "analysis/prepare/lift_modes.hpp"
 
-#include "analysis/prepare/modal_forces.hpp"
+#include "analysis/prepare/flexible_mass.hpp"
 #include "analysis/prepare/ready.hpp"
 #include "fe2d/damping/damping.hpp"
 #include "fe2d/time/structure_system.hpp"
-#include "records/measure/response_spectrum.hpp"
+#include "records/measure/measures.hpp"
 #include "scene/planes.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/water.hpp"

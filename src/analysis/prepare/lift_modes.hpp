@@ -2,7 +2,6 @@
 
 #include "records/record.hpp"
 #include "scene/scene.hpp"
-#include "sliding/planes/joint_motion.hpp"
 #include "sliding/planes/lifts.hpp"
 
 #include <vector>

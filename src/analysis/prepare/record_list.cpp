@@ -4,9 +4,8 @@
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/text.hpp"
-#include "records/generate/seed_list.hpp"
+#include "records/generate/generate.hpp"
 #include "records/read/read_record.hpp"
-#include "records/read/record_text.hpp"
 #include "scene/read.hpp"
 
 #include <algorithm>

@@ -35,7 +35,7 @@ struct RecordList {
 
 /// @param pattern  a folder; a pattern such as "suite/*.AT2"; or a CSV with the column horizontal and, as far as they are wanted,
 /// vertical, other_horizontal, column, vertical_column, event, weight, magnitude, scale, paths in it from its folder; or a list of seeds
-/// (records/generate/seed_list.hpp), whose records are made when they are not there yet. Without records where nothing fits. In a folder, files whose
+/// (records/generate/generate.hpp), whose records are made when they are not there yet. Without records where nothing fits. In a folder, files whose
 /// extension is that of a page, picture, scene or list are passed over.
 /// The component of a file is what its header says, else what its name says. A file with a horizontal channel or two and at most one vertical
 /// is a station: a motion for each horizontal channel, with its vertical one. @param stations  false: such a file is taken as it is, because

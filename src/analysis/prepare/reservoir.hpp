@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/watch.hpp"
-#include "fe2d/assembly/surface_load.hpp"
+#include "core/parallel.hpp"
+#include "fe2d/assembly/assemble.hpp"
 #include "scene/scene.hpp"
 #include "sliding/uplift/uplift.hpp"
 

@@ -3,11 +3,9 @@
 #include "analysis/prepare/plane_model.hpp"
 #include "core/units.hpp"
 #include "records/measure/measures.hpp"
-#include "records/measure/response_spectrum.hpp"
 #include "scene/rock_wedge.hpp"
 #include "scene/section.hpp"
 #include "sliding/block/rigid_block.hpp"
-#include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 
 #include <algorithm>

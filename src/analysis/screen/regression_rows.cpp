@@ -2,7 +2,7 @@
 
 #include "core/input_error.hpp"
 #include "core/units.hpp"
-#include "sliding/flexible/flexible_slide.hpp"
+#include "sliding/flexible/flexible_mode.hpp"
 
 #include <algorithm>
 #include <cmath>

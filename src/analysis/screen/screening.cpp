@@ -5,7 +5,7 @@
 #include "analysis/screen/regression_rows.hpp"
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
-#include "core/statistics.hpp"
+#include "core/status.hpp"
 #include "core/units.hpp"
 #include "scene/keys.hpp"
 #include "scene/water.hpp"
@@ -250,7 +250,7 @@ bool drains_change_nothing(const Screening& s)
 {
     const auto uplift = [&](std::string_view name) -> std::optional<double> {
         for (const sliding::Equilibrium& e : s.combinations)
-            if (e.name == name) return e.base.uplift;
+            if (e.name == name) return e.base.uplift.force;
         return std::nullopt;
     };
     const auto with = uplift("usual"), without = uplift("drains ineffective");

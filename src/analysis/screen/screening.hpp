@@ -6,12 +6,11 @@
 #include "analysis/prepare/rigid_model.hpp"
 #include "analysis/screen/planes.hpp"
 #include "analysis/screen/regression_rows.hpp"
+#include "core/parallel.hpp"
 #include "core/status.hpp"
-#include "core/watch.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 #include "sliding/equilibrium/limit_equilibrium.hpp"
 #include "sliding/flexible/flexible_mode.hpp"
-#include "sliding/flexible/flexible_slide.hpp"
 
 #include <string>
 #include <string_view>

@@ -2,10 +2,10 @@
 
 #include "core/input_error.hpp"
 #include "core/units.hpp"
-#include "fe2d/modes/natural_modes.hpp"
+#include "fe2d/damping/damping.hpp"
 #include "fe2d/solver/linear_solver.hpp"
 #include "fe2d/time/structure_system.hpp"
-#include "records/measure/response_spectrum.hpp"
+#include "records/measure/measures.hpp"
 #include "scene/section.hpp"
 #include "scene/water.hpp"
 #include "sliding/equilibrium/limit_equilibrium.hpp"

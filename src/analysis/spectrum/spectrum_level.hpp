@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/modes/modes.hpp"
-#include "analysis/prepare/modal_forces.hpp"
+#include "analysis/prepare/flexible_mass.hpp"
 #include "analysis/prepare/ready.hpp"
 
 #include <Eigen/Core>

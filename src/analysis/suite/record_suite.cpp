@@ -3,7 +3,7 @@
 #include "core/csv.hpp"
 #include "core/file.hpp"
 #include "core/text.hpp"
-#include "records/measure/response_spectrum.hpp"
+#include "records/measure/measures.hpp"
 #include "records/read/read_record.hpp"
 #include "records/transform/transform.hpp"
 

@@ -1,8 +1,8 @@
 #include "analysis/sweep/fe_sweep.hpp"
 
 #include "analysis/fe/contact_runs.hpp"
-#include "analysis/prepare/fe_joints.hpp"
-#include "analysis/prepare/reducible.hpp"
+#include "analysis/prepare/plane_model.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "analysis/sweep/sweep_grid.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"

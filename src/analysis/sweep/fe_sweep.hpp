@@ -2,8 +2,8 @@
 
 #include "analysis/prepare/ready.hpp"
 #include "analysis/sweep/sweep_axes.hpp"
+#include "core/parallel.hpp"
 #include "core/status.hpp"
-#include "core/watch.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 
 #include <cstddef>

@@ -2,7 +2,6 @@
 
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
-#include "core/watch.hpp"
 
 #include <algorithm>
 #include <atomic>

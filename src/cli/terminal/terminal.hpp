@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/watch.hpp"
+#include "core/parallel.hpp"
 
 #include <chrono>
 #include <functional>

@@ -1,7 +1,10 @@
 #pragma once
 
 #include "analysis/ablation/ablation.hpp"
+#include "analysis/fe/contact_runs.hpp"
 #include "core/status.hpp"
+#include "fe2d/fluid/fluid_model.hpp"
+#include "fe2d/model/model.hpp"
 #include "pages/report/answer.hpp"
 #include "pages/report/page.hpp"
 
@@ -26,5 +29,18 @@ StatusCount unanswered_runs(const AblationRuns& runs);
 Page ablation_page(const Ablations& in, const Scene& given, const EffectPlan& effects);
 
 Answer ablation_answer(const Ablations& in, const Scene& given, const EffectPlan& effects);
+
+struct Explained {
+    const Scene& given; ///< as read
+    std::string method; ///< "rigid" or "fe"
+    EffectPlan plan;
+    std::optional<fe2d::Model> model;      ///< of an FE run
+    std::optional<fe2d::FluidModel> water; ///< acoustic
+    std::optional<ContactCost> cost;       ///< of an FE run
+    std::vector<std::string> notes;
+    std::vector<LiftJoint> lift_joints = {}; ///< of the model
+};
+
+Answer explain_answer(const Explained& in);
 
 } // namespace damslip::pages

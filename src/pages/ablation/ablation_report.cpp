@@ -2,7 +2,7 @@
 
 #include "analysis/prepare/ready.hpp"
 #include "core/units.hpp"
-#include "pages/report/tornado.hpp"
+#include "pages/report/page.hpp"
 #include "pages/scene/scene_pages.hpp"
 #include "scene/plausible.hpp"
 

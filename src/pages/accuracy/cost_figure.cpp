@@ -1,7 +1,7 @@
 #include "pages/accuracy/accuracy_pages.hpp"
 
-#include "core/word_in.hpp"
-#include "pages/report/json.hpp"
+#include "core/text.hpp"
+#include "pages/report/answer.hpp"
 
 #include <algorithm>
 #include <array>

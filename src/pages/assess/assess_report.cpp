@@ -3,11 +3,11 @@
 #include "analysis/ablation/ablation.hpp"
 #include "core/text.hpp"
 #include "core/units.hpp"
+#include "pages/modes/modes_pages.hpp"
+#include "pages/report/page.hpp"
 #include "pages/report/table_text.hpp"
-#include "pages/report/tornado.hpp"
 #include "pages/scene/scene_pages.hpp"
 #include "pages/screen/screen_pages.hpp"
-#include "pages/spectrum/spectrum_tables.hpp"
 #include "scene/plausible.hpp"
 #include "sliding/equilibrium/limit_equilibrium.hpp"
 

@@ -1,7 +1,7 @@
 #include "pages/assess/assess_pages.hpp"
 
+#include "core/text.hpp"
 #include "core/units.hpp"
-#include "core/word_in.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
 #include "scene/plausible.hpp"

@@ -1,7 +1,7 @@
 #include "pages/fe/fe_pages.hpp"
 
+#include "core/text.hpp"
 #include "core/units.hpp"
-#include "core/word_in.hpp"
 #include "pages/scene/scene_pages.hpp"
 #include "scene/joint_bond.hpp"
 

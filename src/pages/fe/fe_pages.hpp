@@ -13,7 +13,6 @@
 #include "fe2d/output/vtu.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "pages/report/answer.hpp"
-#include "pages/report/json.hpp"
 #include "pages/report/page.hpp"
 #include "scene/effect_plan.hpp"
 #include "scene/scene.hpp"

@@ -1,7 +1,7 @@
 #include "pages/fe/fe_pages.hpp"
 
-#include "analysis/prepare/reducible.hpp"
-#include "core/word_in.hpp"
+#include "analysis/prepare/ready.hpp"
+#include "core/text.hpp"
 #include "scene/joint_bond.hpp"
 #include "scene/mesh_sizes.hpp"
 #include "scene/rock_mass.hpp"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "analysis/fragility/fragility_study.hpp"
-#include "analysis/fragility/interval_cost.hpp"
 #include "core/csv.hpp"
 #include "pages/report/answer.hpp"
 #include "pages/report/page.hpp"

@@ -1,10 +1,10 @@
 #include "pages/fragility/fragility_pages.hpp"
 
 #include "analysis/fragility/capacity_roots.hpp"
-#include "pages/report/json.hpp"
+#include "pages/report/answer.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
-#include "probability/fragility_files.hpp"
+#include "probability/annual_rate.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -2,7 +2,7 @@
 
 #include "analysis/suite/record_suite.hpp"
 #include "core/csv.hpp"
-#include "records/measure/response_spectrum.hpp"
+#include "records/measure/measures.hpp"
 #include "records/record.hpp"
 
 #include <span>

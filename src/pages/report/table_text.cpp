@@ -1,6 +1,6 @@
 #include "pages/report/table_text.hpp"
 
-#include "pages/report/json.hpp"
+#include "pages/report/answer.hpp"
 
 #include <algorithm>
 #include <cmath>

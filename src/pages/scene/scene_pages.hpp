@@ -2,8 +2,8 @@
 
 #include "analysis/prepare/records.hpp"
 #include "core/csv.hpp"
-#include "core/statistics.hpp"
-#include "pages/report/json.hpp"
+#include "core/status.hpp"
+#include "pages/report/answer.hpp"
 #include "pages/report/page.hpp"
 #include "records/record.hpp"
 #include "scene/anchor_bar.hpp"

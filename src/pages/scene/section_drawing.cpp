@@ -2,10 +2,10 @@
 
 #include "analysis/prepare/reservoir.hpp"
 #include "core/units.hpp"
-#include "pages/report/picture.hpp"
-#include "scene/drains.hpp"
+#include "pages/report/chart.hpp"
 #include "scene/effect_plan.hpp"
 #include "scene/section.hpp"
+#include "scene/water.hpp"
 
 #include <algorithm>
 #include <cmath>

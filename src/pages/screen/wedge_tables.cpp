@@ -1,7 +1,7 @@
 #include "pages/screen/screen_pages.hpp"
 
 #include "core/units.hpp"
-#include "pages/report/picture.hpp"
+#include "pages/report/chart.hpp"
 #include "scene/rock_wedge.hpp"
 
 #include <algorithm>

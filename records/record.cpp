@@ -1,4 +1,4 @@
-#include "records/write/write_record.hpp"
+#include "records/record.hpp"
 
 #include "core/text.hpp"
 #include "core/units.hpp"

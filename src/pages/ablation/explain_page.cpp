@@ -1,4 +1,4 @@
-#include "pages/explain/explain_page.hpp"
+#include "pages/ablation/ablation_pages.hpp"
 
 #include "pages/fe/fe_pages.hpp"
 #include "pages/report/table_text.hpp"

@@ -1,8 +1,8 @@
-#include "pages/spectrum/spectrum_tables.hpp"
+#include "pages/modes/modes_pages.hpp"
 
 #include "core/text.hpp"
 #include "core/units.hpp"
-#include "pages/report/json.hpp"
+#include "pages/report/answer.hpp"
 #include "pages/report/table_text.hpp"
 
 #include <algorithm>
