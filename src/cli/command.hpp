@@ -20,6 +20,7 @@
 
 /// The table of commands: one row for each word after `damslip`. Command line, help, completion and manual pages follow from it.
 namespace damslip::cli {
+
 /// What a command does with what was typed. @returns the exit code
 using Run = std::function<int(const Streams&)>;
 
