@@ -17,7 +17,10 @@
 #include <string>
 #include <vector>
 
-namespace damslip::fe2d { struct RunOptions; }
+namespace damslip::fe2d {
+struct ModelOptions; // fe2d/model/model.hpp
+struct RunOptions;   // fe2d/run/earthquake_run.hpp
+} // namespace damslip::fe2d
 
 namespace damslip {
 
@@ -45,11 +48,6 @@ bool has_water_in_rock(const Scene& scene);
 /// The part of rock_water_load() beyond the uplift on both faces of the joint, which contact runs have by themselves. The
 /// joint's two sides must have facing nodes for stages.pore_pressure = "effective".
 Eigen::VectorXd water_in_rock(const Scene& scene, const fe2d::Model& model);
-
-namespace damslip::fe2d {
-struct ModelOptions; // fe2d/model/model.hpp
-struct RunOptions;   // fe2d/run/earthquake_run.hpp
-} // namespace damslip::fe2d
 
 /// Records as read, shared by all who run them.
 using Records = std::shared_ptr<const std::vector<RecordPair>>;
