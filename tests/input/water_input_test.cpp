@@ -17,7 +17,7 @@ using namespace damslip;
 const char* const wet_scene =
     "[section]\nheight_m = 62.5\nbase_m = 45\n[dam]\ndensity_kg_m3 = 2500\n[contact]\nfriction = 0.77\n[reservoir]\n";
 
-std::string message_of(const std::string& text)
+std::string message_of_text(const std::string& text)
 {
     try {
         parse_scene(text, "dam.toml", FileCheck::skip);
@@ -29,7 +29,7 @@ std::string message_of(const std::string& text)
 
 std::string water_message(const std::string& reservoir)
 {
-    return message_of(wet_scene + reservoir + "[uplift]\nmodel = \"none\"\n");
+    return message_of_text(wet_scene + reservoir + "[uplift]\nmodel = \"none\"\n");
 }
 
 TEST(WaterInput, BottomIsDescribedOnce)
@@ -51,7 +51,7 @@ TEST(WaterInput, BottomIsDescribedOnce)
 TEST(WaterInput, FloorOnRockNeedsWaterAndRockThatCarryWaves)
 {
     const auto message = [](const std::string& reservoir, const std::string& rest) {
-        return message_of(wet_scene + ("floor = \"rock\"\n" + reservoir) + "[uplift]\nmodel = \"none\"\n" + rest);
+        return message_of_text(wet_scene + ("floor = \"rock\"\n" + reservoir) + "[uplift]\nmodel = \"none\"\n" + rest);
     };
     const std::string acoustic = "model = \"acoustic\"\n", rock = "[foundation]\nyoung_modulus_GPa = 30\n";
     EXPECT_EQ(message(acoustic, rock), "(accepted)");
@@ -121,7 +121,7 @@ TEST(WaterInput, GoldgrubersMassIsOfSteepFaces)
         "[section]\npolygon_m = [[0, 0], [45, 0], [22, 60], [10, 60], [10, 10]]\n[dam]\ndensity_kg_m3 = 2500\n"
         "[contact]\nfriction = 0.77\n[added_mass]\nformula = \"goldgruber\"\n[reservoir]\n";
     const auto message = [&](const std::string& reservoir) {
-        return message_of(section + reservoir + "[uplift]\nmodel = \"none\"\n");
+        return message_of_text(section + reservoir + "[uplift]\nmodel = \"none\"\n");
     };
     EXPECT_EQ(message("level_m = 50\n"),
               "dam.toml:8:1: error: added_mass.formula = \"goldgruber\" with a wet face 45 degrees from the vertical.\n"
@@ -244,7 +244,7 @@ TEST(WaterInput, DrainsCountWhereTheyAreRead)
 TEST(WaterInput, TailwaterAndIceStayBelowTheCrest)
 {
     const auto block = [](const std::string& more) {
-        return message_of("section = { polygon_m = [[0,0],[20,0],[20,10],[0,10]] }\ndam = { density_kg_m3 = 2400 }\n"
+        return message_of_text("section = { polygon_m = [[0,0],[20,0],[20,10],[0,10]] }\ndam = { density_kg_m3 = 2400 }\n"
                           "contact = { friction = 0.8 }\nuplift = { model = \"none\" }\n" +
                           more);
     };
