@@ -1,6 +1,7 @@
 #include "fe2d/contact/anchor_law.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace damslip::fe2d {
@@ -24,7 +25,7 @@ AnchorLaw::AnchorLaw(std::vector<PlacedAnchor> anchors, Index pairs) : pairs_(pa
         Row row;
         row.at = std::move(anchor);
         row.history = anchor_at_lock_off(row.at.bar);
-        row.direction = row.at.bar.direction(0.0, 0.0);
+        row.direction = row.pulls = row.at.bar.direction(0.0, 0.0);
         rows_.push_back(std::move(row));
     }
 }
@@ -55,6 +56,7 @@ void AnchorLaw::begin(const JointStart& start)
         row.slip_start = interpolated(row, start.slip);
         const double gap = row.gap_start - row.gap_zero, slip = row.slip_start - row.slip_zero;
         row.stretch_start = row.stretch_end = phase_ == Phase::locked ? bar.stretch(gap, slip) : 0.0;
+        row.pulls = phase_ == Phase::locked ? bar.direction(gap, slip) : row.direction;
         if (std::hypot(gap - row.gap_of_direction, slip - row.slip_of_direction) >
             direction_renewed_after * bar.length) {
             row.direction = bar.direction(gap, slip);
@@ -75,25 +77,29 @@ void AnchorLaw::add(JointTerms& terms) const
         const Index i = row.at.pair;
         const Index places[] = {i, i + 1, pairs_ + i, pairs_ + i + 1};
         const double w0 = 1.0 - row.at.share, w1 = row.at.share;
-        const double b[] = {row.direction.normal * w0, row.direction.normal * w1, row.direction.along * w0,
-                            row.direction.along * w1};
+        const auto along = [&](const BarDirection& d) {
+            return std::array{d.normal * w0, d.normal * w1, d.along * w0, d.along * w1};
+        };
+        const std::array<double, 4> b = along(row.direction);
         const auto used = [&](int k) { return b[k] != 0.0; }; // a pair without share may not exist
-        const auto pull = [&](double force) {
+        const auto pull = [&](const BarDirection& direction, double force) {
+            const std::array<double, 4> parts = along(direction);
             for (int k = 0; k < 4; ++k)
-                if (used(k)) terms.force[places[k]] += b[k] * force;
+                if (parts[k] != 0.0) terms.force[places[k]] += parts[k] * force;
         };
         if (phase_ == Phase::stressed) {
-            pull(bar.prestress);
+            pull(row.pulls, bar.prestress);
             continue;
         }
         if (row.dowel > 0.0) {
             terms.strength.cohesion[i] += w0 * row.dowel;
             if (w1 > 0.0) terms.strength.cohesion[i + 1] += w1 * row.dowel;
         }
-        if (row.trial == AnchorState::yields) pull(bar.yield_force);
+        if (row.trial == AnchorState::yields) pull(row.pulls, bar.yield_force);
         if (row.trial != AnchorState::elastic) continue;
         // x holds the opening at the step's end, and the slip within it.
-        pull(row.history.trial_force(bar, row.stretch_start) - bar.stiffness() * row.direction.normal * row.gap_start);
+        pull(row.pulls, row.history.trial_force(bar, row.stretch_start));
+        pull(row.direction, -bar.stiffness() * row.direction.normal * row.gap_start);
         for (int k = 0; k < 4; ++k)
             for (int j = 0; j < 4; ++j)
                 if (used(k) && used(j)) terms.entries.push_back({places[k], places[j], bar.stiffness() * b[k] * b[j]});

@@ -70,6 +70,7 @@ private:
         double dowel_work = 0.0;                ///< spent [J/m]; the ledger has it in its friction
         double gap_zero = 0.0, slip_zero = 0.0; ///< where it was locked off [m]
         BarDirection direction;                 ///< d of Z
+        BarDirection pulls;                     ///< of the force, where the step begins
         double gap_of_direction = 0.0, slip_of_direction = 0.0;
 
         // Of the step.

@@ -132,6 +132,7 @@ PlaneLimit bond_limit(const ContactStructure& structure, Index index, const Cont
         const BondStrength& b = bond->strength()[static_cast<std::size_t>(i)];
         limit.shear_strength += std::hypot(b.shear, b.friction * b.tension);
         limit.tension_strength += b.tension;
+        limit.cohesion += b.shear * b.left(bond->damage()[i]);
         limit.friction = b.friction;
     }
     return limit;
@@ -145,8 +146,9 @@ BaseResultant with_anchors(const BaseResultant& loads, const AnchorLaw::Support&
     return r;
 }
 
-/// Resultants against the strength of the whole plane: cohesion on all of it, the weakest friction. Anchors count with the
-/// force they have; they fail only where their yield forces would not hold it either.
+/// Resultants against the strength of the whole plane: cohesion on all of it, the weakest friction. Factor and critical friction are those
+/// of μN' + cA; it fails for certain only beyond the bond's bound (PlaneLimit). Anchors count with the force they have; they fail only where
+/// their yield forces would not hold it either.
 PlaneBalance balance(const ContactStructure& structure, Index index, const VectorXd& dam_load, const ContactLaw& law,
                      const PlaneLimit& bond, const AnchorLaw* anchors)
 {
@@ -167,16 +169,17 @@ PlaneBalance balance(const ContactStructure& structure, Index index, const Vecto
         if (now.any) result.resultant = with_anchors(of_loads, now);
     }
     const double normal = result.resultant.normal_force, shear = std::abs(result.resultant.shear_force);
-    const double cohesion = law.cohesion.segment(first, pairs).sum() + bond.shear_strength + now.dowel,
-                 resistance = law.friction.segment(first, pairs).minCoeff() * normal + cohesion;
+    const double cohesion = law.cohesion.segment(first, pairs).sum() + bond.cohesion + now.dowel,
+                 resistance = law.friction.segment(first, pairs).minCoeff() * normal + cohesion,
+                 bound = resistance + bond.shear_strength - bond.cohesion;
     result.critical_friction = std::max(0.0, shear - cohesion) / normal;
     // A balance of the loads on the dam alone: round-off of sums of order N' is not a shear force.
     result.sliding_factor =
         shear > 1e-12 * std::abs(normal) ? resistance / shear : std::numeric_limits<double>::infinity();
-    result.status = judge(result.resultant, resistance, bond);
+    result.status = judge(result.resultant, bound, bond);
     if (most.any && result.status != StageStatus::ok) {
         const BaseResultant yielding = with_anchors(of_loads, most);
-        const double held = resistance + law.friction.segment(first, pairs).minCoeff() * (most.normal - now.normal);
+        const double held = bound + law.friction.segment(first, pairs).minCoeff() * (most.normal - now.normal);
         result.status = judge(yielding, held, bond);
     }
     return result;

@@ -256,7 +256,7 @@ LiftState lift_state(const Scene& part, const LiftJoint& joint, const MovedPart&
     const bool through = state.base.status == CrackStatus::through || state.base.status == CrackStatus::open;
     const double bonded = through ? 0.0 : width * (length - state.base.crack.length);
     const auto over_shear = [&](double mu, double cohesion) {
-        return (cohesion * bonded + mu * std::max(0.0, state.normal)) / std::abs(state.shear);
+        return (cohesion * bonded + mu * std::max(0.0, state.normal) + before.dowel_force) / std::abs(state.shear);
     };
     state.factor = over_shear(friction.peak(), joint.strength.cohesion);
     state.factor_residual =
@@ -356,6 +356,7 @@ std::vector<LiftPlane> lift_planes(const Scene& scene, const std::vector<GroundS
         RigidBlock block = make_rigid_block(part, state, std::nullopt);
         block.added_mass = {alone.water.xx, alone.water.xy, alone.water.yy};
         plane.stages = strength_stages(block, plane.joint.strength);
+        plane.anchors = base_anchors(part);
         plane.yield = yield_acceleration(plane.stages.front().block);
         plane.joint_amplification = modes.empty() ? amplification_at(scene, elevation) : modes[planes.size()].joint;
         plane.mean_amplification = (moved.mass + moved.water.xx) / (alone.mass + alone.water.xx);

@@ -50,7 +50,8 @@ JointMotions joint_motions(const GroundMotion& ground, const TiedPart& part, int
 SlideResult slide_above(const GroundMotion& ground, const TiedPart& part, const SlipStages& stages,
                         const SlideOptions& options);
 
-/// Horizontal joints of the dam, each judged as a sliding plane under all that stands above it.
+// Horizontal joints of the dam, each judged as a sliding plane under all that stands above it.
+
 /// The joint of an elevation: the [[lift_joint]] that is there, else the one that [lifts] makes, named "lift at 30 m".
 LiftJoint lift_at(const Scene& scene, double elevation);
 
@@ -82,6 +83,7 @@ struct LiftPlane {
     double mean_amplification = 1.0;  ///< Ā: of the part above, its mass and water as weights [-]
     double joint_amplification = 1.0; ///< A at the joint [-]
     SlipStages stages; ///< for slide() under the ground's motion times mean_amplification
+    std::vector<AnchorBar> anchors; ///< through the joint
 };
 
 /// Peaks over the peak of the ground by the modes of the dam.

@@ -24,6 +24,19 @@ double percentile(std::vector<double> samples, double q)
     return samples[below] + (at - static_cast<double>(below)) * (samples[above] - samples[below]);
 }
 
+double percentile(const std::vector<double>& samples, const std::vector<double>& weights, double q)
+{
+    if (samples.empty() || std::ranges::all_of(weights, [&](double w) { return w == weights.front(); }))
+        return percentile(samples, q);
+    std::vector<std::size_t> order(samples.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, [&](std::size_t i) { return samples[i]; });
+    double left = q * std::accumulate(weights.begin(), weights.end(), 0.0) * (1.0 - 1e-12);
+    for (const std::size_t i : order)
+        if ((left -= weights[i]) <= 0.0) return samples[i];
+    return samples[order.back()];
+}
+
 namespace {
 
 using enum Status;

@@ -139,6 +139,55 @@ TEST_F(FragilityMeasures, ACloudOfRecordsIsALineByHand)
     EXPECT_NE(bytes("cloud", "report.html").find("<svg"), std::string::npos);
 }
 
+// Runs without an answer, here of a dam that would tip first, are neither survivals nor failures: P lies between both.
+TEST_F(FragilityMeasures, ACloudCountsRunsWithoutAnAnswer)
+{
+    std::string list = "horizontal\n";
+    for (int i = 0; i < 30; ++i) {
+        const std::string name = fmt::format("pulse{}.csv", i);
+        write_file(folder / name, pulse::record_text(5.0 * std::pow(2.0, i / 29.0)));
+        list += name + "\n";
+    }
+    write_file(folder / "pulses.csv", list);
+    write_scene({.intensity = "measure = \"PGA\"\ndesign = \"cloud\"\nlevels_m_s2 = [6, 8]\n",
+                 .suite = "polarity = \"as-recorded\"\nfiles = \"pulses.csv\"\n",
+                 .variable = "kind = \"aleatory\"\nlognormal = { median = 0.6, beta = 0.4 }\n"});
+    const ProgramAnswer answer = fragility({"--samples", "128", "--out", out("cloud"), "--quiet"});
+    EXPECT_EQ(answer.code, 4) << answer.talk;
+    int missing = 0;
+    for (const auto& run : csv_rows(bytes("cloud", "samples.csv"))) missing += run.at("status") == "rocks first";
+    ASSERT_GT(missing, 10);
+    for (const Json& row : Json::parse(bytes("cloud", "summary.json"))["probabilities"]) {
+        const double low = row["probability_low"], high = row["probability_high"], p = row["probability"];
+        EXPECT_EQ(row["missing"].get<double>(), missing);
+        EXPECT_LT(low + 0.05, high);
+        EXPECT_NEAR(p, 0.5 * (low + high), 1e-12);
+    }
+}
+
+// OpenQuake has g, cm/s and g s, whatever the levels of the scene are in; SA(T1) has its period there.
+TEST_F(FragilityMeasures, OpenQuakesFileHasItsUnits)
+{
+    const auto file_of = [&](const std::string& intensity) {
+        write_scene({.intensity = intensity});
+        const ProgramAnswer answer = fragility({"--samples", "256", "--out", out("nrml"), "--quiet"});
+        EXPECT_EQ(answer.code, 0) << answer.talk;
+        return bytes("nrml", "fragility.xml");
+    };
+    const auto number = [](const std::string& text, const std::string& name) {
+        return std::stod(text.substr(text.find(name + "=\"") + name.size() + 2));
+    };
+    const std::string in_m_s2 = file_of("measure = \"PGA\"\nlevels_m_s2 = [2.9419950, 3.432327, 3.92266]\n"),
+                      in_g = file_of("measure = \"PGA\"\nlevels_g = [0.3, 0.35, 0.4]\n");
+    EXPECT_NEAR(number(in_m_s2, "minIML"), 0.3, 1e-9);
+    for (const char* name : {"minIML", "maxIML", "mean", "stddev"})
+        EXPECT_NEAR(number(in_m_s2, name), number(in_g, name), 1e-9 * number(in_g, name)) << name;
+    EXPECT_NEAR(number(file_of("measure = \"PGV\"\nlevels_m_s = [1.3, 1.5, 1.8]\n"), "minIML"), 130.0, 1e-9);
+    const double first = Json::parse(answer_of({"modes", scene.string(), "--json"}).out)["modes"][0]["period_s"];
+    const std::string at_first = file_of("measure = \"SA(T1)\"\nlevels_m_s2 = [3, 3.5, 4]\n");
+    EXPECT_NEAR(std::stod(at_first.substr(at_first.find("imt=\"SA(") + 8)), first, 1e-3 * first);
+}
+
 // Places of usace.json rise in P from what the table of the runs counts: share of the runs at a water level that slide too far.
 TEST_F(FragilityMeasures, TheFileOfWaterLevelsIsCountedFromTheRuns)
 {

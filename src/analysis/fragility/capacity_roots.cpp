@@ -289,7 +289,7 @@ std::vector<NeededYield> needed_yield(const FragilityPlan& plan, const SceneText
     std::map<std::tuple<std::size_t, std::size_t, int>, double> factors; // of level, record, polarity
     for (const FragilitySample& s : plan.samples) factors.emplace(std::tuple(s.level, s.record, s.polarity), s.factor);
     for (std::size_t level = 0; level < plan.levels; ++level) {
-        std::vector<double> k;
+        std::vector<double> k, weights;
         for (std::size_t r = 0; r < plan.suite.pairs->size(); ++r)
             for (const int polarity : {1, -1}) {
                 const auto used = factors.find({level, r, polarity});
@@ -303,10 +303,11 @@ std::vector<NeededYield> needed_yield(const FragilityPlan& plan, const SceneText
                     (sliding::slide_constant_yield(shaking, {yield}).slip > slip ? low : high) = yield;
                 }
                 k.push_back(0.5 * (low + high) / units::standard_gravity);
+                weights.push_back(plan.suite.weight[r]);
             }
         if (!k.empty())
-            needed.push_back(
-                {plan.input.intensity.levels[level], percentile(k, 0.16), percentile(k, 0.5), percentile(k, 0.84)});
+            needed.push_back({plan.input.intensity.levels[level], percentile(k, weights, 0.16), percentile(k, weights, 0.5),
+                              percentile(k, weights, 0.84)});
     }
     return needed;
 }

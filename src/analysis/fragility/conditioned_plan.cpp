@@ -511,11 +511,11 @@ ConditionedPlan condition_rigid(const FragilityInput& input, const ShakingSuite&
     FrictionSearch search(others, text, rigid, sizes.jobs, watch);
     ConditionedPlan to;
     to.plan = others.empty_plan();
-    if (const std::size_t n = search.count_exceptions(); n > 0)
-        to.notes.push_back(fmt::format(
-            "{} of {} motions slide upstream, have no answer, or slide too far again above a friction at which they do "
-            "not: P is not F(mu*) there.",
-            n, search.motions()));
+    to.exceptions = search.count_exceptions();
+    if (to.exceptions > 0)
+        to.notes.push_back(fmt::format("P is not F(mu*) of {} of {} motions: they slide upstream, have no answer, or slide too far again above "
+                                       "a friction at which they do not. Use  --conditioning off .",
+                                       to.exceptions, search.motions()));
     const std::vector<FrictionMotion> motions = search.find(halvings);
     to.motions = search.motions();
     const std::vector<double> sums = weight_sums(others);

@@ -42,6 +42,7 @@ struct ConditionedPlan {
     double p_static = 0.0;            ///< as predicted
     double rigid_seconds = 0.0;       ///< processor time of finding mu*
     std::size_t motions = 0;          ///< draws of the other variables with record, polarity and level
+    std::size_t exceptions = 0;       ///< of the motions, those whose P is not F(mu*)
     ConditioningPilot pilot;
     std::vector<std::string> notes; ///< a sentence each
     bool exact() const { return cells.empty(); }

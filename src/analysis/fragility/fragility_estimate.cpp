@@ -75,7 +75,10 @@ probability::Interval crossed_interval(const LimitCounts& counts, std::size_t le
     const auto part = [](double v, std::size_t k) { return k > 1 ? v * v / static_cast<double>(k - 1) : 0.0; };
     const double degrees = std::pow(outer + inner, 2) /
                            (part(outer, counts.outer[level].size()) + part(inner, counts.inner[level].size()));
-    return probability::wilson_of_estimate(p, std::sqrt(variance), all.n, degrees);
+    // A single run that ends otherwise says nothing of the spread: not within what none, or all of them, would say.
+    const probability::Interval found = probability::wilson_of_estimate(p, std::sqrt(variance), all.n, degrees);
+    return {std::min(found.lower, probability::wilson(independent, independent).lower),
+            std::max(found.upper, probability::wilson(0.0, independent).upper)};
 }
 
 /// 95 % of a share by independent runs, by replicates whose points hang together, or by clusters of one replicate.
@@ -162,10 +165,12 @@ LevelEstimate estimate_level(const FragilityPlan& plan, const LimitCounts& count
 
 /// Plain runs with the same standard error, p (1 - p) / se^2, at most twenty for each run there is: the error comes from few replicates. A
 /// conditioned stripe is surer than its runs, and a curve that misses it must not pass for one that fits.
-double runs_of_same_error(const LevelEstimate& e)
+double runs_of_same_error(const FragilityPlan& plan, const LevelEstimate& e)
 {
-    const double variance = e.p * (1.0 - e.p);
-    return e.se > 0.0 && variance > 0.0 ? std::min(variance / (e.se * e.se), 20.0 * e.n) : e.n;
+    const double variance = e.p * (1.0 - e.p), most = 20.0 * e.n;
+    if (!(variance > 0.0)) return e.n;
+    if (nothing_drawn(plan)) return most;
+    return e.se > 0.0 ? std::min(variance / (e.se * e.se), most) : e.n;
 }
 
 /// First level of each draw and record above which D > d.
@@ -182,18 +187,21 @@ void find_capacities(const FragilityPlan& plan, const FragilityRuns& runs, Limit
     limit.capacities = probability::fit_capacities(reached, censored);
 }
 
+/// P of a cloud at the levels, with the runs that have no answer as survivals and as failures.
 void fit_cloud_of(const FragilityPlan& plan, const FragilityRuns& runs, LimitEstimate& limit)
 {
     constexpr double least_slip = 1e-4; // [m]
-    std::vector<probability::CloudPoint> points;
+    std::vector<probability::CloudPoint> points, missing;
     double error = 0.0;
     for (std::size_t id = 0; id < plan.samples.size(); ++id) {
         const std::optional<FinishedRow> row = runs.rows[id];
-        if (!row) continue;
         const LimitAnswer answer = answer_to(limit.limit, row);
         const bool failed =
             answer == LimitAnswer::static_failure || (answer == LimitAnswer::fails && !row->results.slip);
-        if (answer == LimitAnswer::missing) continue;
+        if (answer == LimitAnswer::missing) {
+            missing.push_back({plan.samples[id].x, 0.0, false});
+            continue;
+        }
         if (answer == LimitAnswer::static_failure &&
             plan.input.probability.static_failure == StaticFailure::given_standing)
             continue;
@@ -202,13 +210,29 @@ void fit_cloud_of(const FragilityPlan& plan, const FragilityRuns& runs, LimitEst
         points.push_back({plan.samples[id].x, std::abs(slip.value_or(0.0)), failed});
         error = std::max(error, row->results.slip_error.value_or(0.0));
     }
-    limit.cloud = probability::fit_cloud(points, std::max(least_slip, 2.0 * error));
-}
-
-/// Raw rates; P outside the stripes is bounded as annual_rate() does.
-double raw_rate(const probability::HazardCurve& hazard, const std::vector<double>& x, const std::vector<double>& p)
-{
-    return probability::annual_rate(hazard, x, p).lower;
+    const double smallest = std::max(least_slip, 2.0 * error);
+    limit.cloud = probability::fit_cloud(points, smallest);
+    const auto with_missing = [&](bool failed) {
+        std::vector<probability::CloudPoint> all = points;
+        for (probability::CloudPoint point : missing) {
+            point.failed = failed;
+            all.push_back(point);
+        }
+        return probability::fit_cloud(all, smallest);
+    };
+    const probability::CloudFit low = missing.empty() ? *limit.cloud : with_missing(false),
+                                high = missing.empty() ? *limit.cloud : with_missing(true);
+    for (const double x : plan.input.intensity.levels) {
+        LevelEstimate& level = limit.levels.emplace_back();
+        level.x = x;
+        level.n = static_cast<double>(points.size() + missing.size());
+        level.missing = static_cast<double>(missing.size());
+        if (!limit.cloud->found || limit.limit.value < limit.cloud->smallest_slip) continue;
+        level.fitted = limit.cloud->probability(x, limit.limit.value);
+        level.p_low = low.found ? low.probability(x, limit.limit.value) : 0.0;
+        level.p_high = high.found ? high.probability(x, limit.limit.value) : 1.0;
+        level.p = 0.5 * (level.p_low + level.p_high);
+    }
 }
 
 LimitRate rate_of(const FragilityPlan& plan, const LimitEstimate& limit, const LimitCounts& counts,
@@ -216,7 +240,7 @@ LimitRate rate_of(const FragilityPlan& plan, const LimitEstimate& limit, const L
 {
     LimitRate rate;
     std::vector<double> x, p, low, high, p_lower, p_upper;
-    bool growing = true; // P over the levels, as far as the draws tell
+    bool& growing = rate.growing;
     double largest = 0.0;
     for (const LevelEstimate& level : limit.levels) {
         x.push_back(level.x);
@@ -234,14 +258,17 @@ LimitRate rate_of(const FragilityPlan& plan, const LimitEstimate& limit, const L
     if (limit.fit.lognormal())
         rate.fitted = probability::annual_rate(hazard, limit.fit.curve.median, limit.fit.curve.beta, x.front(),
                                                x.back(), all_events);
+    const auto raw_rate = [&](const std::vector<double>& q) { // P outside the stripes is bounded as annual_rate() does
+        return probability::annual_rate(hazard, x, q, std::nullopt, growing).lower;
+    };
     const auto rate_with = [&](auto count) {
         std::vector<double> q;
         for (std::size_t level = 0; level < x.size(); ++level) q.push_back(std::clamp(count(level).middle(), 0.0, 1.0));
-        return raw_rate(hazard, x, q);
+        return raw_rate(q);
     };
-    const double whole = raw_rate(hazard, x, p);
-    rate.sampling = {raw_rate(hazard, x, p_lower), raw_rate(hazard, x, p_upper)};
-    if (plan.replicates > 1) {
+    const double whole = raw_rate(p);
+    rate.sampling = {raw_rate(p_lower), raw_rate(p_upper)};
+    if (plan.replicates > 1 && !nothing_drawn(plan)) {
         std::vector<double> parts;
         for (std::size_t r = 0; r < plan.replicates; ++r)
             parts.push_back(rate_with([&](std::size_t l) { return counts.replicate[l][r]; }));
@@ -440,12 +467,6 @@ FragilityEstimate estimate_fragility(const FragilityPlan& plan, const FragilityR
             conditioned ? counts_of(*conditioned, runs, estimate.limits.size() - 1) : count_limit(plan, runs, wanted);
         if (design == FragilityDesign::cloud) {
             fit_cloud_of(plan, runs, limit);
-            for (const double x : plan.input.intensity.levels) {
-                LevelEstimate& level = limit.levels.emplace_back();
-                level.x = x;
-                if (limit.cloud->found && wanted.value >= limit.cloud->smallest_slip)
-                    level.fitted = level.p = level.p_low = level.p_high = limit.cloud->probability(x, wanted.value);
-            }
             continue;
         }
         std::vector<probability::StripeCount> stripes;
@@ -453,7 +474,7 @@ FragilityEstimate estimate_fragility(const FragilityPlan& plan, const FragilityR
             limit.levels.push_back(
                 estimate_level(plan, counts, level, plan.input.intensity.levels[level], conditioned != nullptr));
             const LevelEstimate& e = limit.levels.back();
-            const double n = conditioned ? runs_of_same_error(e) : e.n;
+            const double n = conditioned ? runs_of_same_error(plan, e) : e.n;
             // All runs of one epistemic draw hang together: they count as one.
             const double counted = plan.epistemic ? std::min(n, static_cast<double>(plan.replicates * plan.outer)) : n;
             stripes.push_back({e.x, counted, e.p * counted});

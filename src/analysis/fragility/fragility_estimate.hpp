@@ -52,6 +52,7 @@ struct LimitRate {
     std::optional<probability::AnnualRate> fitted; ///< of the lognormal curve; none: there is none, or it does not hold
     probability::AnnualRate raw;                   ///< of the stripes, P linear in ln x
     probability::AnnualRate raw_low, raw_high;     ///< the same with missing runs as survivals, as failures
+    bool growing = true; ///< P over the levels, as far as the draws tell; false: it is 0 ... 1 outside them
     /// 95 % of raw.lower, from the replicates; where they do not differ, or there is one: of all lower and of all upper ends of the P's intervals
     probability::Interval sampling;
     probability::ClusterInterval records; ///< 95 % of raw, clusters by event

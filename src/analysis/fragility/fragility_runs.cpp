@@ -192,7 +192,7 @@ private:
         if (plane == base_plane) return {ready.rigid_model()};
         if (plane == any_plane) return all_models(ready);
         Scene scene = ready.scene;
-        scene.lift_joints = ready.given.lift_joints; // they replace lifts
+        restore_lift_joints(scene, ready.given);
         return {plane_model(scene, plane, ready.statics.get())};
     }
     /// A plane that fails without an answer to give is the worst, then one without an answer, then the larger slip.

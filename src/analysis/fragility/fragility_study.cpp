@@ -433,6 +433,10 @@ FragilityAnswer answer_fragility(const FragilityStudy& study, const FragilityPla
             if (is_of_slip(limit) && limit.plane == base_plane)
                 answer.needed_yields.emplace_back(limit, needed_yield(plan, study.text, limit.value));
     }
+    if (study.hazard && input.intensity.design == FragilityDesign::cloud)
+        answer.notes.push_back("no rate per year: rates are made of the P of stripes; write  design = \"stripes\"  in [intensity].");
+    if (conditioned && static_cast<double>(conditioned->exceptions) > 0.05 * static_cast<double>(conditioned->motions))
+        answer.answered = false;
     for (const std::string& far : plan.scaled_far) answer.notes.push_back("scaled beyond suite.max_scale: " + far);
     for (const std::string& failure : runs.failures) answer.notes.push_back("not resolved: " + failure);
     for (const LimitEstimate& limit : answer.estimate.limits)

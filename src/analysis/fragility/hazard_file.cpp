@@ -173,15 +173,17 @@ struct RawCurve {
     std::vector<int> line; ///< of each point; 0: of none
 };
 
+const char* openquake_word(IntensityMeasure measure)
+{
+    if (is_acceleration(measure)) return "g";
+    return measure == IntensityMeasure::pgv ? "cm/s" : measure == IntensityMeasure::cav ? "g*s" : "m/s";
+}
+
 /// Units of OpenQuake's exports.
 std::optional<IntensityUnit> unit_of_openquake(const std::string& measure)
 {
     const std::optional<IntensityName> name = parse_intensity(measure);
-    if (!name) return std::nullopt;
-    if (is_acceleration(name->measure)) return intensity_unit("g");
-    return intensity_unit(name->measure == IntensityMeasure::pgv   ? "cm/s"
-                          : name->measure == IntensityMeasure::cav ? "g*s"
-                                                                   : "m/s");
+    return name ? intensity_unit(openquake_word(name->measure)) : std::nullopt;
 }
 
 /// What stands behind "name=" in a text: 50.0, 'PGA', "SA(0.5)". Empty: not there.
@@ -669,6 +671,11 @@ private:
 };
 
 } // namespace
+
+double openquake_unit(const IntensityName& measure)
+{
+    return intensity_unit(openquake_word(measure.measure))->si;
+}
 
 HazardFile parse_hazard_file(std::string_view text, const std::string& file_name, const HazardWish& wish)
 {

@@ -12,6 +12,9 @@
 
 namespace damslip {
 
+/// SI value of the unit in which OpenQuake's files have a measure: g, of PGV cm/s, of I_A m/s, of CAV g s.
+double openquake_unit(const IntensityName& measure);
+
 /// Which of a file's curves is wanted.
 struct HazardWish {
     IntensityName measure;                     ///< of the levels

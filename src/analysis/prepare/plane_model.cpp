@@ -70,9 +70,19 @@ RigidModel model_of(const Scene& scene, sliding::LiftPlane& lift, KeptStatics& k
 
 } // namespace
 
+void restore_lift_joints(Scene& scene, const Scene& given)
+{
+    const auto of_joint = [](const Anchor& anchor) { return !anchor.joint.empty(); };
+    scene.lift_joints = given.lift_joints;
+    std::erase_if(scene.anchors, of_joint);
+    std::copy_if(given.anchors.begin(), given.anchors.end(), std::back_inserter(scene.anchors), of_joint);
+}
+
 RigidModel plane_model(sliding::LiftPlane& lift)
 {
-    return model_of(std::move(lift.stages), lift.length, lift.mean_amplification);
+    RigidModel model = model_of(std::move(lift.stages), lift.length, lift.mean_amplification);
+    model.anchors = lift.anchors;
+    return model;
 }
 
 RigidModel plane_model(sliding::SeamPlane& seam)
@@ -90,7 +100,7 @@ std::vector<RigidModel> all_models(const Ready& ready)
     std::vector<RigidModel> models{ready.rigid_model()};
     if (!ready.scene.lifts && ready.scene.seams.empty()) return models;
     Scene scene = ready.scene;
-    scene.lift_joints = ready.given.lift_joints; // they replace lifts
+    restore_lift_joints(scene, ready.given);
     KeptStatics own;
     KeptStatics& statics = ready.statics ? *ready.statics : own;
     if (scene.lifts)

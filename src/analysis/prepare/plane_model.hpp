@@ -17,6 +17,10 @@ inline constexpr const char* any_plane = "any"; ///< the one that slides furthes
 /// "base", the lifts from the bottom up, the seams.
 std::vector<std::string> plane_names(const Scene& scene);
 
+/// Lift joints and the anchors through them, which the plan of the rigid block leaves out, are those of the scene as read: on a plane
+/// they replace lifts.
+void restore_lift_joints(Scene& scene, const Scene& given);
+
 /// The rigid block on a lift, whose stages it takes, and on a seam, with what that needs to slide both ways; without the vibration of the dam.
 RigidModel plane_model(sliding::LiftPlane& lift);
 RigidModel plane_model(sliding::SeamPlane& seam);

@@ -294,9 +294,11 @@ Planes find_planes(const Ready& ready, const std::vector<sliding::Equilibrium>& 
 {
     Planes planes;
     Scene scene = ready.scene;
-    scene.lift_joints = ready.given.lift_joints; // the plan of the rigid block leaves them out: they replace lifts
+    restore_lift_joints(scene, ready.given);
     if (!scene.lifts && scene.seams.empty()) return planes;
     planes.states = plane_states(scene, combinations);
+    if (!scene.seams.empty() && std::any_of(scene.anchors.begin(), scene.anchors.end(), [](const Anchor& a) { return a.joint.empty(); }))
+        planes.warnings.push_back("anchors through the base do not count on seams: how far they reach down is not known.");
     if (const std::vector<std::string> names = of_base_alone(scene); !names.empty())
         planes.warnings.push_back(fmt::format(
             "load combinations {}: their own water, drains, factors and strengths are of the base alone; lifts and seams are "

@@ -1,6 +1,7 @@
 #include "analysis/sweep/sweep_grid.hpp"
 
 #include "analysis/fe/contact_runs.hpp"
+#include "analysis/prepare/plane_model.hpp"
 #include "core/parallel.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/scene_text.hpp"
@@ -51,7 +52,7 @@ public:
         if (on_plane) {
             here_.seams = ready_.scene.seams;
             here_.lifts = ready_.scene.lifts;
-            here_.lift_joints = ready_.given.lift_joints; // they replace lifts
+            restore_lift_joints(here_, ready_.given);
         }
         if (vary_friction_ && (on_plane || friction != ready_.given.contact.friction)) {
             if (!on_plane && !ready_.given.contact.friction_table.empty()) set_friction(ready_.given, friction); // refuses

@@ -189,12 +189,21 @@ std::string method_words(const FragilityView& view)
            (dam ? ": no bound for an elastic dam" : "");
 }
 
+/// "0.0021 to 0.37": the least and the largest at the levels.
+std::string probabilities_of(const std::vector<LevelEstimate>& levels)
+{
+    const auto [least, most] = std::ranges::minmax(levels, {}, &LevelEstimate::p);
+    return fmt::format("{:.3g} to {:.3g}", least.p, most.p);
+}
+
 /// "slip > 50 mm: P = 0.5 at PGA = 0.31 g; 1.1e-4 to 1.3e-4 per year"
 std::string answer_sentence(const FragilityView& view, const LimitEstimate& limit)
 {
     std::string sentence = limit.limit.text + ": ";
     const std::string apart = levels_apart_from_median(view, limit);
-    if (limit.fit.method != probability::FitMethod::none)
+    if (limit.fit.method != probability::FitMethod::none && !limit.fit.lognormal())
+        sentence += fmt::format("P = {} by the stripes, which are not lognormal", probabilities_of(limit.levels));
+    else if (limit.fit.method != probability::FitMethod::none)
         sentence += fmt::format("P = 0.5 at {} = {:.3g} {}{}", view.plan.input.intensity.text,
                                 limit.fit.curve.median / view.unit(), view.unit_text(),
                                 apart.empty() ? "" : ", extrapolated from levels of " + apart);
@@ -314,8 +323,10 @@ std::string fragility_nrml(const FragilityView& view)
     probability::NrmlModel model;
     model.id = "damslip";
     model.description = view.study.scene.title;
-    model.imt = view.plan.input.intensity.text;
-    for (const double x : view.plan.input.intensity.levels) model.levels.push_back(x / view.unit());
+    const IntensityInput& of_levels = view.plan.input.intensity;
+    model.imt = of_levels.first_period ? fmt::format("SA({:.4g})", first_period_of(view.study.scene)) : of_levels.text;
+    const double unit = openquake_unit({of_levels.measure, of_levels.first_period, of_levels.periods});
+    for (const double x : of_levels.levels) model.levels.push_back(x / unit);
     if (view.plan.input.intensity.design == FragilityDesign::cloud) return "";
     // Curves that do not hold, or cross, have the discrete form: P at the levels. Of a limit without a curve that of the stripes, made
     // non-decreasing, for the file alone.
@@ -324,7 +335,7 @@ std::string fragility_nrml(const FragilityView& view)
     for (const LimitEstimate& limit : view.answer.estimate.limits) {
         probability::NrmlLimit& of = model.limits.emplace_back();
         of.name = name_of_limit(limit.limit.text);
-        of.median = discrete ? 0.0 : limit.fit.curve.median / view.unit(); // 0: the discrete form
+        of.median = discrete ? 0.0 : limit.fit.curve.median / unit; // 0: the discrete form
         of.beta = limit.fit.curve.beta;
         std::vector<double> stripes, runs;
         for (const LevelEstimate& level : limit.levels) {

@@ -156,10 +156,13 @@ Table fragility_table(const FragilityView& view, Readers readers)
         {in_brief({"runs", "runs"}), number([](const LevelEstimate& e) { return count_of(e.n); })},
         {in_brief({"failures", "failures"}), number([](const LevelEstimate& e) { return count_of(e.z); })}};
     const bool missing = std::ranges::any_of(rows, [](const R& r) { return r.level.missing > 0.0; });
+    const auto bound = [counted](auto get) {
+        return [=](const R& r) { return counted || r.level.missing > 0.0 ? Cell(get(r.level)) : Cell(); };
+    };
     const std::vector<ColumnOf<R>> of_missing = {
-        {in_brief({"missing", "missing"}), number([](const LevelEstimate& e) { return e.missing; })},
-        {{"probability_low", "missing survive", "–", 3}, number([](const LevelEstimate& e) { return e.p_low; })},
-        {{"probability_high", "missing fail", "–", 3}, number([](const LevelEstimate& e) { return e.p_high; })}};
+        {in_brief({"missing", "missing"}), bound([](const LevelEstimate& e) { return e.missing; })},
+        {{"probability_low", "missing survive", "–", 3}, bound([](const LevelEstimate& e) { return e.p_low; })},
+        {{"probability_high", "missing fail", "–", 3}, bound([](const LevelEstimate& e) { return e.p_high; })}};
     if (missing || readers == Readers::files) columns.insert(columns.end(), of_missing.begin(), of_missing.end());
     columns.push_back({in_brief({"fitted", "curve", "–"}), [](const R& r) { return r.level.fitted; }});
     if (readers == Readers::files)
@@ -289,7 +292,11 @@ Table rate_table(const FragilityView& view)
     if (std::ranges::any_of(rated, [](const L& l) { return !l.rate->raw_high.all_events; }))
         t.notes.push_back("hazard.all_events, the rate of all earthquakes, counts the weaker ones, too.");
     if (!rated.empty()) {
-        t.notes.push_back("from … to: P is 0 … P of the lowest level below it, P of the highest … 1 above it;");
+        if (std::ranges::all_of(rated, [](const L& l) { return l.rate->growing; }))
+            t.notes.push_back("from … to: P is 0 … P of the lowest level below it, P of the highest … 1 above it;");
+        else
+            t.notes.push_back("from … to: P is 0 … P of the lowest level below it, P of the highest … 1 above it; where P falls from a level to a "
+                              "higher one it is 0 … 1 outside them;");
         t.notes.push_back("draws, records, lack of knowledge: of the lower end.");
     }
     if (!rated.empty())
