@@ -1,6 +1,7 @@
 #include "pages/fragility/fragility_pages.hpp"
 
 #include "analysis/fragility/capacity_roots.hpp"
+#include "analysis/fragility/hazard_file.hpp"
 #include "pages/report/answer.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
