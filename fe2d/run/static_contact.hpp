@@ -123,9 +123,9 @@ StaticPath follow_damage(JointLawSolver& solver, const Eigen::VectorXd& before, 
 struct PlaneLimit {
     double shear_strength = 0.0;   ///< Σ A √(c² + mu² f_t²) [N/m]
     double tension_strength = 0.0; ///< Σ A f_t [N/m]
-    double cohesion = 0.0;         ///< Σ c A, of damaged pairs what is left: for the sliding factor [N/m]
     double friction = 0.0;         ///< [-]
     double length = 0.0;           ///< [m]
+    double cohesion = 0.0;         ///< Σ c A, of damaged pairs what is left: for the sliding factor [N/m]
 };
 /// Resultant of a load on a plane.
 struct PlaneLoad {

@@ -409,8 +409,8 @@ TEST_F(SweepScene, EventsAndAnchorsHaveColumns)
         EXPECT_EQ(row["anchor_1_state"], "yielded");
         if (row["method"] != "fe" || row["friction"] != 0.1) continue;
         for (std::size_t k = 0; k < 2; ++k)
-            EXPECT_EQ(1e3 * row["slip_after_event_" + std::to_string(k + 1) + "_m"].get<double>(),
-                      run["events"][k]["slip_so_far_mm"].get<double>());
+            EXPECT_DOUBLE_EQ(1e3 * row["slip_after_event_" + std::to_string(k + 1) + "_m"].get<double>(),
+                             run["events"][k]["slip_so_far_mm"].get<double>());
     }
 
     ASSERT_EQ(sweep(with(grid, {"--out", path("whole.csv")})).code, 0);
