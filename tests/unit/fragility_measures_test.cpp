@@ -145,13 +145,13 @@ TEST_F(FragilityMeasures, ACloudCountsRunsWithoutAnAnswer)
     std::string list = "horizontal\n";
     for (int i = 0; i < 30; ++i) {
         const std::string name = fmt::format("pulse{}.csv", i);
-        write_file(folder / name, pulse::record_text(5.0 * std::pow(2.0, i / 29.0)));
+        write_file(folder / name, pulse::record_text(10.0 * std::pow(2.0, i / 29.0)));
         list += name + "\n";
     }
     write_file(folder / "pulses.csv", list);
-    write_scene({.intensity = "measure = \"PGA\"\ndesign = \"cloud\"\nlevels_m_s2 = [6, 8]\n",
+    write_scene({.intensity = "measure = \"PGA\"\ndesign = \"cloud\"\nlevels_m_s2 = [12, 18]\n",
                  .suite = "polarity = \"as-recorded\"\nfiles = \"pulses.csv\"\n",
-                 .variable = "kind = \"aleatory\"\nlognormal = { median = 0.6, beta = 0.3 }\n"});
+                 .variable = "kind = \"aleatory\"\nlognormal = { median = 1.2, beta = 0.3 }\n"});
     const ProgramAnswer answer = fragility({"--samples", "128", "--out", out("cloud"), "--quiet"});
     EXPECT_EQ(answer.code, 4) << answer.talk;
     int missing = 0;
@@ -181,7 +181,7 @@ TEST_F(FragilityMeasures, OpenQuakesFileHasItsUnits)
                       in_g = file_of("measure = \"PGA\"\nlevels_g = [0.3, 0.35, 0.4]\n");
     EXPECT_NEAR(number(in_m_s2, "minIML"), 0.3, 1e-9);
     for (const char* name : {"minIML", "maxIML", "mean", "stddev"})
-        EXPECT_NEAR(number(in_m_s2, name), number(in_g, name), 1e-7 * number(in_g, name)) << name;
+        EXPECT_NEAR(number(in_m_s2, name), number(in_g, name), 1e-5 * number(in_g, name)) << name;
     EXPECT_NEAR(number(file_of("measure = \"PGV\"\nlevels_m_s = [1.3, 1.5, 1.8]\n"), "minIML"), 130.0, 1e-9);
     const double first = Json::parse(answer_of({"modes", scene.string(), "--json"}).out)["modes"][0]["period_s"];
     const std::string at_first = file_of("measure = \"SA(T1)\"\nlevels_m_s2 = [3, 3.5, 4]\n");
