@@ -117,13 +117,14 @@ ElasticMaterial plane_stress_equivalent(const ElasticMaterial& material);
 /// Checked material of a scene. @throws InputError naming `key` when there is no Young's modulus: FE needs one.
 ElasticMaterial elastic_material(const Material& material, const Scene& scene, const char* key);
 
-/// Elements with nodes in the middle of some or all edges, and at the centre: Q8, Q9, T6 and the transition elements
-/// between them and linear ones. Straight edges with the node in the middle: the mapping is that of the corners.
-///
-/// Shape functions are built up from the corners' (Bathe, Finite Element Procedures, 1996, fig. 5.4 and 5.12): a node
-/// that is there takes its share from those before it, a node that is not leaves its edge linear. Quadrilaterals with a
-/// centre hold every quadratic field on any straight-sided shape; without it only on parallelograms (Lee & Bathe 1993,
-/// Int. J. Numer. Meth. Engng 36, 3553-3576; Arnold, Boffi & Falk 2002, Math. Comp. 71, 909-922).
+// Elements with nodes in the middle of some or all edges, and at the centre: Q8, Q9, T6 and the transition elements
+// between them and linear ones. Straight edges with the node in the middle: the mapping is that of the corners.
+//
+// Shape functions are built up from the corners' (Bathe, Finite Element Procedures, 1996, fig. 5.4 and 5.12): a node
+// that is there takes its share from those before it, a node that is not leaves its edge linear. Quadrilaterals with a
+// centre hold every quadratic field on any straight-sided shape; without it only on parallelograms (Lee & Bathe 1993,
+// Int. J. Numer. Meth. Engng 36, 3553-3576; Arnold, Boffi & Falk 2002, Math. Comp. 71, 909-922).
+
 /// One quadrature point in the global axes.
 struct QuadraticPoint {
     double weight = 0.0;                                                      ///< includes the Jacobian [m^2]

@@ -186,9 +186,10 @@ struct YieldPoint {
 /// @throws InputError for no points, a first path other than 0, paths that fall, yields below 0 or not finite
 SlipStages stages_of_yield(const std::vector<YieldPoint>& points);
 
-/// Ground accelerations at which the block starts to slide.
-///
-/// Signs: x downstream, y up; a_h positive upstream (drives the block downstream), a_v positive up.
+// Ground accelerations at which the block starts to slide.
+//
+// Signs: x downstream, y up; a_h positive upstream (drives the block downstream), a_v positive up.
+
 /// Yield acceleration as a linear function of the vertical ground acceleration: a_y = constant + per_a_v a_v [m/s^2].
 struct YieldLaw {
     double constant = 0.0; ///< at a_v = 0 [m/s^2]

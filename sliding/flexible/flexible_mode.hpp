@@ -82,17 +82,18 @@ struct StrainCompatible {
 StrainCompatible strain_compatible(const StrainColumn& column, const GroundMotion& motion, double mass_ratio,
                                    double tolerance = 1e-4);
 
-/// Sliding of a block with one mode of its own.
-///
-/// The mode deforms horizontally by psi(y) q. With x = q M_1/L, c = cos(theta) and the slip s along the base
-///
-///     x'' + 2 zeta omega x' + omega^2 x = a_h - c s''            (a_h positive upstream drives the block downstream)
-///     k = a_h - Gamma x''                                        what drives the base; the mass accelerates by k - c s''
-///     s'' = f (k - a_y) sliding downstream, -s'' = f (-k - a_y^-) upstream, s'' = 0 at rest,
-///
-/// f and a_y as in Yield; Gamma, zeta, omega: FlexibleBlock. Chopra & Zhang (1991), J. Struct. Eng. 117; Rathje & Bray
-/// (1999), Earthquake Eng. Struct. Dyn. 28; (2000), J. Geotech. Geoenviron. Eng. 126. One mode with zeta of a base that
-/// does not slide; the vertical motion is that of the ground and changes the yields only.
+// Sliding of a block with one mode of its own.
+//
+// The mode deforms horizontally by psi(y) q. With x = q M_1/L, c = cos(theta) and the slip s along the base
+//
+//     x'' + 2 zeta omega x' + omega^2 x = a_h - c s''            (a_h positive upstream drives the block downstream)
+//     k = a_h - Gamma x''                                        what drives the base; the mass accelerates by k - c s''
+//     s'' = f (k - a_y) sliding downstream, -s'' = f (-k - a_y^-) upstream, s'' = 0 at rest,
+//
+// f and a_y as in Yield; Gamma, zeta, omega: FlexibleBlock. Chopra & Zhang (1991), J. Struct. Eng. 117; Rathje & Bray
+// (1999), Earthquake Eng. Struct. Dyn. 28; (2000), J. Geotech. Geoenviron. Eng. 126. One mode with zeta of a base that
+// does not slide; the vertical motion is that of the ground and changes the yields only.
+
 struct FlexibleSlide {
     SlideResult slide;                   ///< slip of the base
     double peak_acceleration = 0.0;      ///< of the mass on average, largest |k - c s''| [m/s^2]

@@ -144,7 +144,8 @@ private:
     std::vector<double> r_, factor_; ///< R and L, row by row
 };
 
-/// Which variable the spread of an answer Y comes from.
+// Which variable the spread of an answer Y comes from.
+
 class GaussianCopula;
 
 struct Estimated {

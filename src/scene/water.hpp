@@ -48,7 +48,8 @@ bool curtain_changes_flow(const Scene& scene);
 /// Some record of the scene has a vertical component.
 bool any_vertical_record(const Scene& scene);
 
-/// What reads [drains] and [curtain]; beside anything else they change nothing.
+// What reads [drains] and [curtain]; beside anything else they change nothing.
+
 /// The profile of the uplift model is lower where the scene has [drains].
 bool reads_drains(UpliftModel model);
 

@@ -63,7 +63,8 @@ fe2d::NaturalModes as_natural_modes(const fe2d::CoupledModes& modes, const std::
 /// @param ready  for finite elements
 ModesResult compute_modes(const Ready& ready, const ModesOptions& options);
 
-/// Moduli and damping of a dam whose frequencies were measured.
+// Moduli and damping of a dam whose frequencies were measured.
+
 struct MeasuredFrequency {
     double frequency = 0.0;           ///< [Hz]
     std::optional<double> level = {}; ///< of the water above the heel, 0: none [m]; none: the scene's
