@@ -226,7 +226,6 @@ void read_state(const ContactPlanes& planes, Index index, const ContactMemory& m
     if (std::isfinite(result.sliding_factor)) result.sliding_factor -= without / std::abs(result.resultant.shear_force);
 }
 
-
 PlaneLoad plane_load(const BaseResultant& r)
 {
     return {r.normal_force, r.shear_force, r.normal_force * r.position};

@@ -13,7 +13,6 @@ namespace damslip::pages {
 enum class Checksums { shown, left_out };
 Table record_info_table(const std::vector<Record>& records, Checksums checksums);
 
-
 /// @param ratio  damping [-]
 Table spectrum_table(const Record& record, const records::ResponseSpectrum& spectrum, double ratio);
 
