@@ -2,7 +2,7 @@
 
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
-#include "fe2d/run/crack_watch.hpp"
+#include "fe2d/run/run_watches.hpp"
 #include "fe2d/run/earthquake_pass.hpp"
 #include "scene/section.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fe2d/contact/contact_solver.hpp"
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/rock/reduced_rock.hpp"
 #include "fe2d/run/static_contact.hpp"
 #include "fe2d/time/scheme.hpp"
@@ -22,7 +22,7 @@ struct RunDamping {
 ///
 ///     C_M = a_M (I - r wᵀ)ᵀ M (I - r wᵀ) = a_M M - P wᵀ - w Pᵀ + w κ wᵀ,   P = a_M M r,   κ = rᵀP
 ///
-/// (fe2d/damping/damping.hpp). On the planes w is the weights ω on the tangential components, so its part acts
+/// (fe2d/modes/modes_and_damping.hpp). On the planes w is the weights ω on the tangential components, so its part acts
 /// like contact forces.
 struct SlipDamping {
     Eigen::MatrixXd momentum; ///< P on the dam's unknowns, n x K [N s/m per m/s ...]; without columns: none

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fe2d/run/contact_motion.hpp"
-#include "fe2d/run/crack_watch.hpp"
+#include "fe2d/run/run_watches.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "fe2d/run/ground_input.hpp"
 #include "fe2d/run/stages.hpp"

@@ -5,7 +5,7 @@
 #include "fe2d/contact/bond_law.hpp"
 #include "fe2d/rock/radiating_rock.hpp"
 #include "fe2d/run/base_water.hpp"
-#include "fe2d/run/crack_watch.hpp"
+#include "fe2d/run/run_watches.hpp"
 #include "fe2d/run/dynamic_contact.hpp"
 #include "fe2d/run/explicit_contact.hpp"
 #include "fe2d/run/run_history.hpp"

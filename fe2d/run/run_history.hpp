@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe2d/run/crack_watch.hpp"
+#include "fe2d/run/run_watches.hpp"
 #include "fe2d/run/dynamic_contact.hpp"
 
 #include <Eigen/Core>

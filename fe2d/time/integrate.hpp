@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/model/model.hpp"
 #include "fe2d/time/energy.hpp"

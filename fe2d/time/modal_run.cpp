@@ -1,7 +1,7 @@
 #include "fe2d/time/modal_run.hpp"
 
 #include "core/input_error.hpp"
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/time/integrate.hpp"
 
 #include <algorithm>

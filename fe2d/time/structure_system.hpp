@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/fluid/coupled_system.hpp"
 #include "fe2d/model/model.hpp"
 #include "fe2d/solver/dense_product.hpp"

@@ -1,6 +1,5 @@
 #include "core/text.hpp"
 #include "records/read/agency_samples.hpp"
-#include "records/read/format.hpp"
 #include "records/read/read_record.hpp"
 #include "records/transform/transform.hpp"
 

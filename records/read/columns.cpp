@@ -1,4 +1,4 @@
-#include "records/read/format.hpp"
+#include "records/read/read_record.hpp"
 
 #include "core/text.hpp"
 #include "records/read/agency_samples.hpp"

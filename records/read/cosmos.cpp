@@ -1,6 +1,6 @@
 #include "core/text.hpp"
 #include "records/read/agency_samples.hpp"
-#include "records/read/format.hpp"
+#include "records/read/read_record.hpp"
 
 #include <fmt/format.h>
 

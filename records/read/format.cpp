@@ -1,4 +1,4 @@
-#include "records/read/format.hpp"
+#include "records/read/read_record.hpp"
 
 #include <algorithm>
 #include <vector>

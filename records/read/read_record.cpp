@@ -3,7 +3,6 @@
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/text.hpp"
-#include "records/read/format.hpp"
 #include "records/read/header.hpp"
 
 #include <fmt/format.h>

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -73,5 +74,16 @@ Record read_record(const std::filesystem::path& path, const ReadOptions& options
 /// @param file_name  for messages and provenance
 /// Every record returned has dt in 1e-6 ... 1 s and 2 ... 5 million finite samples of at most 1e4 m/s^2.
 std::vector<Record> parse_record(std::string_view content, std::string_view file_name, const ReadOptions& options = {});
+
+/// A file format: how its content is known and how it is read. To add one: docs/recipes.md.
+struct RecordFormat {
+    std::string_view name;
+    bool (*recognises)(const RecordText& text);
+    std::vector<Record> (*read)(const RecordText& text,
+                                const ReadOptions& options); ///< null: known by sight, not read yet
+};
+
+/// All formats, in the order they are tried; plain columns come last.
+std::span<const RecordFormat> record_formats();
 
 } // namespace damslip::records

@@ -249,12 +249,6 @@ std::string_view sentence_of(NoteKind kind);       ///< with a place in braces f
 std::string text_of(const Note& note);             ///< the sentence with its values
 std::string text_of(std::span<const Note> notes);  ///< one after the other
 
-/// Value below which the share q of the sorted samples lies, linear between order statistics (Hyndman & Fan 1996, type 7).
-double percentile(std::vector<double> samples, double q);
-
-/// The least of the samples up to which their weights reach the share q; with equal weights as without them.
-double percentile(const std::vector<double>& samples, const std::vector<double>& weights, double q);
-
 /// What one event of a sequence of motions adds to the slip.
 struct EventSlip {
     std::string name;

@@ -1,6 +1,6 @@
 #include "probability/fit.hpp"
 
-#include "core/status.hpp"
+#include "core/statistics.hpp"
 #include "core/text.hpp"
 #include "probability/distribution.hpp"
 #include "probability/sampling.hpp"

@@ -1,6 +1,6 @@
 #include "probability/sampling.hpp"
 
-#include "core/status.hpp"
+#include "core/statistics.hpp"
 #include "core/text.hpp"
 #include "probability/distribution.hpp"
 

@@ -3,7 +3,7 @@
 #include "analysis/modes/modes.hpp"
 #include "analysis/prepare/reservoir.hpp"
 #include "analysis/sweep/sweep_axes.hpp"
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "scene/rock_mass.hpp"
 

@@ -1,7 +1,7 @@
 #include "analysis/screen/screening.hpp"
 #include "cli/command.hpp"
 #include "core/input_error.hpp"
-#include "core/status.hpp"
+#include "core/statistics.hpp"
 #include "program_answer.hpp"
 #include "source_dir.hpp"
 

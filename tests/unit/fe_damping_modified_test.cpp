@@ -1,5 +1,5 @@
 // Modified Rayleigh damping (Spears & Jensen 2012) on modes and spectra whose answer is known.
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "verification/exact/damped_oscillator.hpp"
 
 #include <gtest/gtest.h>

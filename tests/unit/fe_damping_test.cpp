@@ -1,6 +1,6 @@
 // Rayleigh constants and damping of the deformation only.
 #include "core/input_error.hpp"
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/time/linear_integrator.hpp"
 #include "verification/cases/fe_time_models.hpp"
 

@@ -1,5 +1,5 @@
 // Lift joints in the mesh and the unknowns: nodes twice, faces through both, tied = uncracked.
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/mesh/build_mesh.hpp"
 #include "fe2d/mesh/faces.hpp"
 #include "fe2d/model/model.hpp"

@@ -1,5 +1,5 @@
 // Natural modes: normalisation, orthogonality, effective masses, massless rock, repeatability.
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe_scenes.hpp"
 
 #include <Eigen/Dense>

@@ -1,5 +1,5 @@
 // Parts of the staged run: factor with the interface last, condensed rock, products, resultants.
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/run/contact_structure.hpp"
 #include "fe2d/run/node_products.hpp"

@@ -1,7 +1,7 @@
 // The condensed run against two slower ways to the same equations: nothing condensed, rock and dam in one system.
 #include "verification/cases/fe_run_scenes.hpp"
 
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/time/linear_integrator.hpp"
 
 #include <Eigen/LU>

@@ -1,6 +1,6 @@
 // When sliding with the ground at rest is self-excited: made-up histories on both sides of every criterion, and small dams.
 #include "fe2d/reduction/reduced_run.hpp"
-#include "fe2d/run/crack_watch.hpp"
+#include "fe2d/run/run_watches.hpp"
 #include "fe2d/run/earthquake_pass.hpp"
 #include "program_answer.hpp"
 #include "scene/write.hpp"

@@ -1,5 +1,5 @@
 #include "analysis/spectrum/spectrum_level.hpp"
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "records/measure/measures.hpp"
 #include "scene/read.hpp"
 

@@ -1,7 +1,7 @@
 // Section::thickness against numbers by hand, and against a dam of two materials.
 #include "core/input_error.hpp"
 #include "fe2d/assembly/assemble.hpp"
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/element/elastic.hpp"
 #include "fe2d/model/model.hpp"
 #include "scene/read.hpp"

@@ -1,7 +1,7 @@
 // Imported meshes: what a mesh generator delivers, read from the text of a Gmsh file, against exact solutions and against the
 // program's own mesh.
 #include "fe2d/assembly/assemble.hpp"
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/gmsh/gmsh.hpp"
 #include "fe2d/mesh/import_mesh.hpp"
 #include "fe2d/mesh/mesh.hpp"

@@ -1,4 +1,4 @@
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "sliding/loads/added_mass.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/reference_scene.hpp"

@@ -1,4 +1,4 @@
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/element/elastic.hpp"
 #include "fe2d/mesh/mesh.hpp"
 #include "fe2d/model/model.hpp"

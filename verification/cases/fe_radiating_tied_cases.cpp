@@ -1,6 +1,6 @@
 #include "verification/cases/modules.hpp"
 
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/fluid/coupled_system.hpp"
 #include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/harmonic/transfer.hpp"

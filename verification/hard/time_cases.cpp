@@ -1,7 +1,7 @@
 #include "verification/hard/hard_scenes.hpp"
 
 #include "core/input_error.hpp"
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/solver/dense_product.hpp"
 #include "fe2d/time/central_difference.hpp"
 #include "fe2d/time/integrate.hpp"

@@ -1,6 +1,6 @@
 #include "verification/hard/hard_scenes.hpp"
 
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fe2d/assembly/assemble.hpp"
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/model/model.hpp"
 #include "records/record.hpp"
 

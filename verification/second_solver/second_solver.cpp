@@ -2,7 +2,7 @@
 
 #include "analysis/fe/tied_runs.hpp"
 #include "core/input_error.hpp"
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/run/strength.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "scene/water.hpp"

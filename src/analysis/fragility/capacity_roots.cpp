@@ -2,7 +2,7 @@
 
 #include "analysis/sweep/sweep_grid.hpp"
 #include "core/parallel.hpp"
-#include "core/status.hpp"
+#include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "probability/distribution.hpp"
 #include "probability/sampling.hpp"

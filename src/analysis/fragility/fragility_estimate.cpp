@@ -2,6 +2,7 @@
 
 #include "analysis/fragility/conditioned_plan.hpp"
 #include "analysis/sweep/sweep_grid.hpp"
+#include "core/statistics.hpp"
 #include "core/status.hpp"
 #include "probability/fit.hpp"
 

@@ -3,7 +3,7 @@
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/units.hpp"
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/rock/radiating_rock.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "records/measure/measures.hpp"

@@ -3,7 +3,7 @@
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/records.hpp"
 #include "core/parallel.hpp"
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/fluid/coupled_system.hpp"
 #include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/harmonic/transfer.hpp"

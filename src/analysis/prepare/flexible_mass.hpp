@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/prepare/rigid_model.hpp"
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/fluid/coupled_system.hpp"
 #include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/model/model.hpp"

@@ -2,7 +2,7 @@
 
 #include "analysis/prepare/flexible_mass.hpp"
 #include "analysis/prepare/ready.hpp"
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "records/measure/measures.hpp"
 #include "scene/planes.hpp"

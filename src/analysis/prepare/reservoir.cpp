@@ -1,7 +1,7 @@
 #include "analysis/prepare/reservoir.hpp"
 
 #include "core/input_error.hpp"
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/seepage/seepage.hpp"
 #include "scene/rock_mass.hpp"
 #include "sliding/loads/added_mass.hpp"

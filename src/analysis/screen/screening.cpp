@@ -5,6 +5,7 @@
 #include "analysis/screen/regression_rows.hpp"
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
+#include "core/statistics.hpp"
 #include "core/status.hpp"
 #include "core/units.hpp"
 #include "scene/keys.hpp"

@@ -2,7 +2,7 @@
 
 #include "core/input_error.hpp"
 #include "core/units.hpp"
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 #include "fe2d/solver/linear_solver.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "records/measure/measures.hpp"

@@ -4,7 +4,7 @@
 #include "core/file.hpp"
 #include "core/units.hpp"
 #include "core/version.hpp"
-#include "fe2d/run/crack_watch.hpp"
+#include "fe2d/run/run_watches.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
 #include "scene/joint_bond.hpp"

@@ -1,5 +1,5 @@
 #include "core/parallel.hpp"
-#include "core/status.hpp"
+#include "core/statistics.hpp"
 #include "core/text.hpp"
 #include "core/units.hpp"
 #include "core/version.hpp"

@@ -1,6 +1,7 @@
 #include "pages/screen/screen_pages.hpp"
 
 #include "analysis/screen/variation.hpp"
+#include "core/statistics.hpp"
 #include "core/status.hpp"
 #include "core/units.hpp"
 #include "pages/scene/scene_pages.hpp"

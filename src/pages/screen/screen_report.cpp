@@ -3,6 +3,7 @@
 #include "analysis/screen/variation.hpp"
 #include "core/file.hpp"
 #include "core/parallel.hpp"
+#include "core/statistics.hpp"
 #include "core/status.hpp"
 #include "core/units.hpp"
 #include "core/version.hpp"

@@ -2,7 +2,7 @@
 
 #include "analysis/prepare/records.hpp"
 #include "analysis/screen/screening.hpp"
-#include "core/status.hpp"
+#include "core/statistics.hpp"
 #include "core/units.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "fe2d/damping/damping.hpp"
+#include "fe2d/modes/modes_and_damping.hpp"
 
 #include "core/input_error.hpp"
 #include "core/units.hpp"

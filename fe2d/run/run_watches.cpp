@@ -1,4 +1,4 @@
-#include "fe2d/run/crack_watch.hpp"
+#include "fe2d/run/run_watches.hpp"
 
 #include "fe2d/element/elastic.hpp"
 #include "fe2d/mesh/faces.hpp"
