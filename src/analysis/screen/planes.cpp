@@ -299,6 +299,8 @@ Planes find_planes(const Ready& ready, const std::vector<sliding::Equilibrium>& 
     planes.states = plane_states(scene, combinations);
     if (!scene.seams.empty() && std::any_of(scene.anchors.begin(), scene.anchors.end(), [](const Anchor& a) { return a.joint.empty(); }))
         planes.warnings.push_back("anchors through the base do not count on seams: how far they reach down is not known.");
+    if (std::any_of(scene.anchors.begin(), scene.anchors.end(), [](const Anchor& a) { return !a.joint.empty() && a.limit_force == AnchorForceRule::yield; }))
+        planes.warnings.push_back("factors and yield accelerations of lifts count the prestress of anchors alone; what stretches a bar counts in the slip.");
     if (const std::vector<std::string> names = of_base_alone(scene); !names.empty())
         planes.warnings.push_back(fmt::format(
             "load combinations {}: their own water, drains, factors and strengths are of the base alone; lifts and seams are "
