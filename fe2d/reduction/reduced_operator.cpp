@@ -125,29 +125,43 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
     const Index m = plane.pairs();
     const MatrixXd& on_plane = system.modes.on_plane;
     massless_factor_ = 1.0 / stretch;
-    MatrixXd d = (w * constants.a1 * a_m) * system.modes.dam_mass;
-    d.diagonal().array() += constants.a0 + stretch * system.modes.omega2.array();
-    const Index rock = system.rock_modes();
-    if (rock > 0) d.bottomRightCorner(rock, rock) += w * constants.a1 * system.radiation;
-    if (system.water) {
-        const Index first = system.water_begin, water = system.water->count(), floor = system.of_floor.rows();
-        d.block(first, first, water, water) = constants.a0 * system.water->mass +
-                                              (w * constants.a1) * system.water->damping + w * system.water->stiffness;
-        d.block(0, first, first, water) = (w * constants.a1) * system.of_face;
-        if (floor > 0) d.block(d.rows() - floor, first, floor, water) = (w * constants.a1) * system.of_floor;
-        d.middleRows(first, water) = d.middleCols(first, water).transpose().eval();
-    }
-    apart_ = system.rock_apart() ? rock : 0;
-    const Index first_block = d.rows() - apart_;
-    inverse_ = inverse_of(d.topLeftCorner(first_block, first_block), !system.water);
-    const MatrixXd moving = on_plane.leftCols(first_block) * inverse_; // Φ d⁻¹
-    to_steps_ = TransposedProduct(moving);
+    const Index rock = system.rock_modes(), bodies = on_plane.cols() - rock;
+    const Index dam = system.water ? system.water_begin : bodies;
+    const VectorXd without_damping = constants.a0 + stretch * system.modes.omega2.array();
+    MatrixXd of_dam = (w * constants.a1 * a_m) * system.modes.dam_mass.topLeftCorner(dam, dam);
+    of_dam.diagonal() += without_damping.head(dam);
+    dam_ = inverse_of(of_dam, true);
+    const MatrixXd dam_moves = on_plane.leftCols(dam) * dam_; // Φ d⁻¹ of the dam alone
+    to_dam_steps_ = TransposedProduct(dam_moves);
     MatrixXd flexibility = massless_factor_ * system.flexibility;
-    flexibility.noalias() += moving * on_plane.leftCols(first_block).transpose();
-    if (apart_ > 0) {
-        inverse_of_rock_ = inverse_of(d.bottomRightCorner(apart_, apart_), true);
-        to_rock_steps_ = TransposedProduct(shapes.rock * inverse_of_rock_);
-        flexibility.noalias() += on_plane.rightCols(apart_) * inverse_of_rock_ * on_plane.rightCols(apart_).transpose();
+    flexibility.noalias() += dam_moves * on_plane.leftCols(dam).transpose();
+    if (rock > 0) {
+        MatrixXd of_rock = (w * constants.a1 * a_m) * system.modes.dam_mass.bottomRightCorner(rock, rock);
+        of_rock.diagonal() += without_damping.tail(rock);
+        of_rock += w * constants.a1 * system.radiation;
+        rock_ = inverse_of(of_rock, true);
+        to_rock_steps_ = TransposedProduct(shapes.rock * rock_);
+        flexibility.noalias() += on_plane.rightCols(rock) * rock_ * on_plane.rightCols(rock).transpose();
+    }
+    if (system.water) {
+        const Index water = system.water->count(), shown = system.water->pressures();
+        MatrixXd of_water = constants.a0 * system.water->mass + (w * constants.a1) * system.water->damping + w * system.water->stiffness;
+        const MatrixXd face = (w * constants.a1) * system.of_face.leftCols(shown);
+        dam_per_pressure_ = dam_ * face;
+        of_water.topLeftCorner(shown, shown) -= face.transpose() * dam_per_pressure_;
+        MatrixXd gaps = on_plane.leftCols(dam) * dam_per_pressure_;
+        if (system.of_floor.size() > 0) {
+            const MatrixXd floor = (w * constants.a1) * system.of_floor.leftCols(shown);
+            rock_per_pressure_ = rock_ * floor;
+            of_water.topLeftCorner(shown, shown) -= floor.transpose() * rock_per_pressure_;
+            gaps += on_plane.rightCols(rock) * rock_per_pressure_;
+        }
+        dam_to_pressures_ = dam_per_pressure_.transpose();
+        rock_to_pressures_ = rock_per_pressure_.transpose();
+        water_ = inverse_of(of_water, false);
+        water_per_pressure_ = water_.leftCols(shown);
+        gaps_to_pressures_ = -gaps.transpose();
+        flexibility.noalias() += gaps * water_.topLeftCorner(shown, shown) * gaps.transpose();
     }
     MatrixXd stiffness = flexibility.llt().solve(MatrixXd::Identity(2 * m, 2 * m)); // W⁻¹
     stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
@@ -155,8 +169,8 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
     if (rock > 0) stiff_ports_ = stiffness * shapes.ports;
     if (system.slips_damped()) {
         k_ = w * constants.a1 * system.slip_damping;
-        softened_motion_.setZero(d.rows());
-        softened_motion_.head(first_block) = inverse_ * system.mean_motion.head(first_block); // rock apart has no part in it
+        Work work;
+        soften(system.mean_motion, work, softened_motion_);
         z_ = on_plane * softened_motion_;
         zeta_ = softened_motion_.dot(system.mean_motion);
         // EᵀW⁻¹E, E = I - k z ωᵀ: three rank-one terms
@@ -172,12 +186,32 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
     stiffness_ = std::make_shared<const MatrixXd>(std::move(stiffness));
 }
 
-void ReducedOperator::soften(const VectorXd& load, VectorXd& step) const
+void ReducedOperator::soften(const VectorXd& load, Work& work, VectorXd& step) const
 {
-    const Index first_block = inverse_.rows();
+    const Index dam = dam_.rows(), rock = rock_.rows(), water = water_.rows();
     step.setZero(load.size());
-    add_product(inverse_, load.head(first_block), step.head(first_block));
-    if (apart_ > 0) add_product(inverse_of_rock_, load.tail(apart_), step.tail(apart_));
+    add_product(dam_, load.head(dam), step.head(dam));
+    if (rock > 0) add_product(rock_, load.tail(rock), step.tail(rock));
+    if (water == 0) return;
+    work.pressures.setZero(dam_to_pressures_.rows());
+    add_product(dam_to_pressures_, load.head(dam), work.pressures);
+    if (rock_to_pressures_.size() > 0) add_product(rock_to_pressures_, load.tail(rock), work.pressures);
+    work.water = load.segment(dam, water);
+    work.water.head(work.pressures.size()) -= work.pressures;
+    push(water_, work.water, work, step);
+}
+
+/// Adds the water's motion under `load` and what its pressures do to dam and rock.
+/// @param softness  S⁻¹, or its first columns
+void ReducedOperator::push(const MatrixXd& softness, const VectorXd& load, Work& work, VectorXd& step) const
+{
+    const Index dam = dam_.rows();
+    work.moved.setZero(softness.rows());
+    add_product(softness, load, work.moved);
+    step.segment(dam, work.moved.size()) += work.moved;
+    work.pressures = -work.moved.head(dam_per_pressure_.cols());
+    add_product(dam_per_pressure_, work.pressures, step.head(dam));
+    if (rock_per_pressure_.size() > 0) add_product(rock_per_pressure_, work.pressures, step.tail(rock_.rows()));
 }
 
 namespace {
@@ -206,7 +240,7 @@ void ReducedOperator::stuck_force(const VectorXd& load, const VectorXd& rates, c
         add_through_ports(shapes_.to_ports, shapes_.ports.cols(), shapes_.to_rock, massless, work.ports, work.rock,
                           work.modal.tail(rock));
     work.modal = load - work.modal;
-    soften(work.modal, work.free);
+    soften(work.modal, work, work.free);
     work.free += rates;
     stuck = massless;
     add_product(stiff_modes_, work.free.head(shapes_.dam), stuck);
@@ -236,10 +270,15 @@ void ReducedOperator::finish(const VectorXd& massless, const VectorXd& known, co
     }
     tilde += massless;
     modal_step = work.free;
-    to_steps_.add(tilde, modal_step);
-    if (apart_ > 0)
+    to_dam_steps_.add(tilde, modal_step);
+    if (rock_.rows() > 0)
         add_through_ports(shapes_.to_ports, shapes_.ports.cols(), to_rock_steps_, tilde, work.ports, work.rock,
-                          modal_step.tail(apart_));
+                          modal_step.tail(rock_.rows()));
+    if (water_.rows() > 0) {
+        work.water.setZero(gaps_to_pressures_.rows());
+        add_product(gaps_to_pressures_, tilde, work.water);
+        push(water_per_pressure_, work.water, work, modal_step);
+    }
     if (system_.slips_damped()) modal_step += (k_ * slip) * softened_motion_;
     massless_step = massless_factor_ * tilde;
 }

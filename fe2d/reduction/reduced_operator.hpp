@@ -44,8 +44,6 @@ struct ReducedSystem {
                   const ReducedRock* radiating = nullptr, std::shared_ptr<const ReducedWater> water = {},
                   double highest = 0.0);
     Eigen::Index rock_modes() const { return radiation.rows(); }
-    /// Does the rock radiate, and meet dam and water on the plane alone? Else the floor of acoustic water couples it, too.
-    bool rock_apart() const { return rock_modes() > 0 && of_floor.size() == 0; }
     bool slips_damped() const { return slip_damping != 0.0; }
 
 private:
@@ -88,7 +86,7 @@ class ReducedOperator {
 public:
     /// What a run lends to the functions below; kept from step to step, it is not allocated again.
     struct Work {
-        Eigen::VectorXd modal, plane, ports, rock;
+        Eigen::VectorXd modal, plane, ports, rock, water, moved, pressures;
         Eigen::VectorXd free;  ///< d⁻¹ (b - Φᵀπ)
         double mean = 0.0;    ///< μᵀd⁻¹ b [m]
     };
@@ -109,16 +107,21 @@ public:
                 Work& work, Eigen::VectorXd& modal_step, Eigen::VectorXd& massless_step) const;
 
 private:
-    void soften(const Eigen::VectorXd& load, Eigen::VectorXd& step) const;
+    void soften(const Eigen::VectorXd& load, Work& work, Eigen::VectorXd& step) const;
+    void push(const Eigen::MatrixXd& softness, const Eigen::VectorXd& load, Work& work, Eigen::VectorXd& step) const;
 
     const ReducedSystem& system_;
     const PlaneShapes& shapes_;
     StepConstants constants_;
-    Eigen::Index apart_ = 0;          ///< modes of rock_apart(): a block of d of its own, the second
-    Eigen::MatrixXd inverse_;         ///< d⁻¹ of the first block
-    Eigen::MatrixXd inverse_of_rock_; ///< and of the second
-    TransposedProduct to_steps_;      ///< (Φ d⁻¹)ᵀ of the first
-    TransposedProduct to_rock_steps_; ///< (P d⁻¹)ᵀ of the second
+    // d⁻¹: dam and rock meet in the water alone, by F and G on its pressures, so
+    //     y = S⁻¹ (b_W - (D⁻¹F)ᵀ b_D - (R⁻¹G)ᵀ b_R),   D⁻¹ b_D - D⁻¹F y,   R⁻¹ b_R - R⁻¹G y,   S = W - FᵀD⁻¹F - GᵀR⁻¹G
+    Eigen::MatrixXd dam_, rock_, water_;                           ///< D⁻¹, R⁻¹, S⁻¹; empty: there is none
+    Eigen::MatrixXd dam_per_pressure_, rock_per_pressure_;         ///< D⁻¹F, R⁻¹G
+    Eigen::MatrixXd dam_to_pressures_, rock_to_pressures_;         ///< transposed
+    Eigen::MatrixXd water_per_pressure_;                           ///< the columns of S⁻¹ of its pressures
+    Eigen::MatrixXd gaps_to_pressures_;                            ///< -(Φ (D⁻¹F, R⁻¹G))ᵀ
+    TransposedProduct to_dam_steps_;                               ///< (Φ D⁻¹)ᵀ
+    TransposedProduct to_rock_steps_;                              ///< (P R⁻¹)ᵀ
     Eigen::MatrixXd stiff_modes_;     ///< W⁻¹Φ of the dam
     Eigen::MatrixXd stiff_ports_;     ///< W⁻¹U
     double k_ = 0.0, zeta_ = 0.0, massless_factor_ = 1.0;
