@@ -106,6 +106,27 @@ ReducedRun::Motion ReducedRun::motion_of(const GroundMotion& motion, const std::
             halvings};
 }
 
+ReducedRun::Motion ReducedRun::doubled(Motion motion)
+{
+    motion.dt *= 2.0;
+    return motion;
+}
+
+namespace {
+
+/// A series on rows half as far apart, linear in between.
+std::vector<double> between_rows(const std::vector<double>& series)
+{
+    std::vector<double> rows{series.front()};
+    for (std::size_t i = 1; i < series.size(); ++i) {
+        rows.push_back(0.5 * (series[i - 1] + series[i]));
+        rows.push_back(series[i]);
+    }
+    return rows;
+}
+
+} // namespace
+
 ReducedRun::Start ReducedRun::stand(StaticContact& statics, const Contact& contact, RunResult& result) const
 {
     const Stopwatch clock;
@@ -123,10 +144,11 @@ ReducedRun::Start ReducedRun::stand(StaticContact& statics, const Contact& conta
 
 ReducedState ReducedRun::shake_with(int halvings, Motion& motion, const Start& start, Strength& strength, RunResult& result) const
 {
-    motion.parts = 1 << halvings;
+    motion.parts = 1 << std::max(0, halvings);
     strength = start.strength;
     result.halvings = halvings;
-    ReducedState end = shake(motion, *model_, strength, start.rest, &start.balance, result);
+    ReducedState end = shake(halvings < 0 ? doubled(motion) : motion, *model_, strength, start.rest, &start.balance, result);
+    if (halvings < 0) result.history.slip = between_rows(result.history.slip);
     result.pair_slip = end.contact.slip - start.rest.slip;
     return end;
 }
@@ -152,7 +174,7 @@ std::vector<RunResult> ReducedRun::passes(const Shaking& shaking, const Enough& 
 ReducedState ReducedRun::refine(Motion& motion, Strength& strength, const Start& start, RunResult& result,
                                 std::vector<double>& first_slips) const
 {
-    const int first = motion.halvings.value_or(0);
+    const int first = motion.halvings.value_or(options_.slip_limits.empty() ? 0 : -1);
     ReducedState end = shake_with(first, motion, start, strength, result);
     first_slips = result.history.slip;
     std::vector<SlipAtStep> slips{{first, result.slip, 0.0}};
@@ -160,6 +182,7 @@ ReducedState ReducedRun::refine(Motion& motion, Strength& strength, const Start&
         const std::vector<double> coarser = result.history.slip;
         const bool was_self_excited = result.status == Status::self_excited;
         end = shake_with(k, motion, start, strength, result);
+        if (k == 0) first_slips = result.history.slip;
         slips.push_back({k, result.slip, largest_difference(coarser, result.history.slip)});
         result.slip_error = step_error(slips, strength.constant() ? contact_order : sudden_order);
         if (result.slip_error <= wanted(result)) break;

@@ -79,15 +79,18 @@ private:
     Motion motion_of(const GroundMotion& motion, const std::optional<int>& halvings) const;
     /// The static stages, into `result`.
     Start stand(StaticContact& statics, const Contact& contact, RunResult& result) const;
-    /// One pass. @param strength  gets that at the end
+    static Motion doubled(Motion motion); ///< on steps twice as long
+    /// One pass. @param halvings  -1: with twice the step; of its history the slip alone has the rows of the others
+    /// @param strength  gets that at the end
     ReducedState shake_with(int halvings, Motion& motion, const Start& start, Strength& strength, RunResult& result) const;
     /// From rest to the end of the run-out; history, slip and counts go into `result`.
     /// @param balance  the run is watched for sliding by itself; null: it is not
     /// @returns the state at the end
     ReducedState shake(const Motion& motion, const ReducedModel& model, Strength& strength, const ContactMemory& rest,
                        const StageResult* balance, RunResult& result) const;
-    /// Passes with halved steps until the slip holds still, or the one pass that is asked for.
-    /// @param first  gets the slips of the first pass
+    /// Passes with halved steps until the slip holds still, or the one pass that is asked for. Where only the side of limits is asked
+    /// for the first one has twice the step: for most slips two coarse passes tell it.
+    /// @param first  gets the slips of the first pass with the step Δt or the one that is asked for
     /// @returns the state at the end of the last one
     ReducedState refine(Motion& motion, Strength& strength, const Start& start, RunResult& result,
                         std::vector<double>& first) const;
