@@ -42,6 +42,8 @@ void ReducedSystem::add_water()
                    attached = modes.attach(modes.face_residual, pressures, -water->mass.topLeftCorner(shapes, shapes),
                                            flexibility);
     water_begin = modes.count();
+    water_mass = SymmetricProduct(water->mass);
+    water_stiffness = SymmetricProduct(water->stiffness);
     of_face = MatrixXd::Zero(water_begin, water->count());
     of_face.topLeftCorner(dam_modes, shapes) = -modes.face * pressures;
     of_face.bottomLeftCorner(attached.rows(), shapes) = -attached;
@@ -130,38 +132,41 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
     const VectorXd without_damping = constants.a0 + stretch * system.modes.omega2.array();
     MatrixXd of_dam = (w * constants.a1 * a_m) * system.modes.dam_mass.topLeftCorner(dam, dam);
     of_dam.diagonal() += without_damping.head(dam);
-    dam_ = inverse_of(of_dam, true);
-    const MatrixXd dam_moves = on_plane.leftCols(dam) * dam_; // Φ d⁻¹ of the dam alone
+    const MatrixXd soft_dam = inverse_of(of_dam, true), dam_moves = on_plane.leftCols(dam) * soft_dam; // Φ d⁻¹ of the dam alone
+    dam_ = SymmetricProduct(soft_dam);
     to_dam_steps_ = TransposedProduct(dam_moves);
     MatrixXd flexibility = massless_factor_ * system.flexibility;
     flexibility.noalias() += dam_moves * on_plane.leftCols(dam).transpose();
+    MatrixXd soft_rock;
     if (rock > 0) {
         MatrixXd of_rock = (w * constants.a1 * a_m) * system.modes.dam_mass.bottomRightCorner(rock, rock);
         of_rock.diagonal() += without_damping.tail(rock);
         of_rock += w * constants.a1 * system.radiation;
-        rock_ = inverse_of(of_rock, true);
-        to_rock_steps_ = TransposedProduct(shapes.rock * rock_);
-        flexibility.noalias() += on_plane.rightCols(rock) * rock_ * on_plane.rightCols(rock).transpose();
+        soft_rock = inverse_of(of_rock, true);
+        rock_ = SymmetricProduct(soft_rock);
+        to_rock_steps_ = TransposedProduct(shapes.rock * soft_rock);
+        flexibility.noalias() += on_plane.rightCols(rock) * soft_rock * on_plane.rightCols(rock).transpose();
     }
     if (system.water) {
         const Index water = system.water->count(), shown = system.water->pressures();
         MatrixXd of_water = constants.a0 * system.water->mass + (w * constants.a1) * system.water->damping + w * system.water->stiffness;
         const MatrixXd face = (w * constants.a1) * system.of_face.leftCols(shown);
-        dam_per_pressure_ = dam_ * face;
+        dam_per_pressure_ = soft_dam * face;
         of_water.topLeftCorner(shown, shown) -= face.transpose() * dam_per_pressure_;
         MatrixXd gaps = on_plane.leftCols(dam) * dam_per_pressure_;
         if (system.of_floor.size() > 0) {
             const MatrixXd floor = (w * constants.a1) * system.of_floor.leftCols(shown);
-            rock_per_pressure_ = rock_ * floor;
+            rock_per_pressure_ = soft_rock * floor;
             of_water.topLeftCorner(shown, shown) -= floor.transpose() * rock_per_pressure_;
             gaps += on_plane.rightCols(rock) * rock_per_pressure_;
         }
         dam_to_pressures_ = dam_per_pressure_.transpose();
         rock_to_pressures_ = rock_per_pressure_.transpose();
-        water_ = inverse_of(of_water, false);
-        water_per_pressure_ = water_.leftCols(shown);
+        const MatrixXd soft_water = inverse_of(of_water, false);
+        water_ = SymmetricProduct(soft_water);
+        water_per_pressure_ = soft_water.leftCols(shown);
         gaps_to_pressures_ = -gaps.transpose();
-        flexibility.noalias() += gaps * water_.topLeftCorner(shown, shown) * gaps.transpose();
+        flexibility.noalias() += gaps * soft_water.topLeftCorner(shown, shown) * gaps.transpose();
     }
     MatrixXd stiffness = flexibility.llt().solve(MatrixXd::Identity(2 * m, 2 * m)); // W⁻¹
     stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
@@ -190,24 +195,23 @@ void ReducedOperator::soften(const VectorXd& load, Work& work, VectorXd& step) c
 {
     const Index dam = dam_.rows(), rock = rock_.rows(), water = water_.rows();
     step.setZero(load.size());
-    add_product(dam_, load.head(dam), step.head(dam));
-    if (rock > 0) add_product(rock_, load.tail(rock), step.tail(rock));
+    dam_.add(load.head(dam), step.head(dam), work.room);
+    if (rock > 0) rock_.add(load.tail(rock), step.tail(rock), work.room);
     if (water == 0) return;
     work.pressures.setZero(dam_to_pressures_.rows());
     add_product(dam_to_pressures_, load.head(dam), work.pressures);
     if (rock_to_pressures_.size() > 0) add_product(rock_to_pressures_, load.tail(rock), work.pressures);
     work.water = load.segment(dam, water);
     work.water.head(work.pressures.size()) -= work.pressures;
-    push(water_, work.water, work, step);
+    work.moved.setZero(water);
+    water_.add(work.water, work.moved, work.room);
+    push(work, step);
 }
 
-/// Adds the water's motion under `load` and what its pressures do to dam and rock.
-/// @param softness  S⁻¹, or its first columns
-void ReducedOperator::push(const MatrixXd& softness, const VectorXd& load, Work& work, VectorXd& step) const
+/// Adds the water's motion, work.moved, and what its pressures do to dam and rock.
+void ReducedOperator::push(Work& work, VectorXd& step) const
 {
     const Index dam = dam_.rows();
-    work.moved.setZero(softness.rows());
-    add_product(softness, load, work.moved);
     step.segment(dam, work.moved.size()) += work.moved;
     work.pressures = -work.moved.head(dam_per_pressure_.cols());
     add_product(dam_per_pressure_, work.pressures, step.head(dam));
@@ -277,7 +281,9 @@ void ReducedOperator::finish(const VectorXd& massless, const VectorXd& known, co
     if (water_.rows() > 0) {
         work.water.setZero(gaps_to_pressures_.rows());
         add_product(gaps_to_pressures_, tilde, work.water);
-        push(water_per_pressure_, work.water, work, modal_step);
+        work.moved.setZero(water_.rows());
+        add_product(water_per_pressure_, work.water, work.moved);
+        push(work, modal_step);
     }
     if (system_.slips_damped()) modal_step += (k_ * slip) * softened_motion_;
     massless_step = massless_factor_ * tilde;
@@ -384,8 +390,8 @@ void ReducedContact::right_hand_side(const StepConstants& c, const GroundAcceler
         };
         auto load = of_water(load_);
         load.setZero();
-        add_product(water->mass, of_water(inertia_), load);
-        add_product(water->stiffness, of_water(strain_), load);
+        system_.water_mass.add(of_water(inertia_), load, work_.room);
+        system_.water_stiffness.add(of_water(strain_), load, work_.room);
         load += weighted(&GroundAcceleration::displacement_v) * water->displacement_y -
                 weighted(&GroundAcceleration::velocity_h) * water->velocity_x +
                 weighted(&GroundAcceleration::velocity_v) * water->velocity_y;

@@ -30,6 +30,7 @@ struct ReducedSystem {
         radiation; ///< damping of the last modes, the rock's, without b_K [1/s]; empty: the rock does not radiate
     std::shared_ptr<const ReducedWater> water; ///< null: none
     Eigen::Index water_begin = 0;              ///< its first shape among `modes`
+    SymmetricProduct water_mass, water_stiffness; ///< of `water`
     Eigen::MatrixXd of_face,
         of_floor; ///< damping between the dam's modes, those of the rock, and the water's shapes; empty: none
     Eigen::MatrixXd flexibility; ///< F_s = rock K_c⁻¹ or F_res + residual of the dam, in series, 2m x 2m [m²/N]
@@ -86,7 +87,7 @@ class ReducedOperator {
 public:
     /// What a run lends to the functions below; kept from step to step, it is not allocated again.
     struct Work {
-        Eigen::VectorXd modal, plane, ports, rock, water, moved, pressures;
+        Eigen::VectorXd modal, plane, ports, rock, water, moved, pressures, room;
         Eigen::VectorXd free;  ///< d⁻¹ (b - Φᵀπ)
         double mean = 0.0;    ///< μᵀd⁻¹ b [m]
     };
@@ -108,14 +109,14 @@ public:
 
 private:
     void soften(const Eigen::VectorXd& load, Work& work, Eigen::VectorXd& step) const;
-    void push(const Eigen::MatrixXd& softness, const Eigen::VectorXd& load, Work& work, Eigen::VectorXd& step) const;
+    void push(Work& work, Eigen::VectorXd& step) const;
 
     const ReducedSystem& system_;
     const PlaneShapes& shapes_;
     StepConstants constants_;
     // d⁻¹: dam and rock meet in the water alone, by F and G on its pressures, so
     //     y = S⁻¹ (b_W - (D⁻¹F)ᵀ b_D - (R⁻¹G)ᵀ b_R),   D⁻¹ b_D - D⁻¹F y,   R⁻¹ b_R - R⁻¹G y,   S = W - FᵀD⁻¹F - GᵀR⁻¹G
-    Eigen::MatrixXd dam_, rock_, water_;                           ///< D⁻¹, R⁻¹, S⁻¹; empty: there is none
+    SymmetricProduct dam_, rock_, water_;                          ///< D⁻¹, R⁻¹, S⁻¹; no rows: there is none
     Eigen::MatrixXd dam_per_pressure_, rock_per_pressure_;         ///< D⁻¹F, R⁻¹G
     Eigen::MatrixXd dam_to_pressures_, rock_to_pressures_;         ///< transposed
     Eigen::MatrixXd water_per_pressure_;                           ///< the columns of S⁻¹ of its pressures

@@ -233,4 +233,83 @@ void TransposedProduct::add(const Eigen::VectorXd& x, Eigen::VectorXd& y, [[mayb
     }
 }
 
+namespace {
+
+/// One four of columns: the block on the diagonal, then those below it. @param x, y  from the diagonal on
+void add_panel(const double* a, const double* const x, const Index blocks, double* const y)
+{
+    double sums[4][4] = {};
+    for (Index block = 0; block < blocks; ++block, a += 16)
+        for (int row = 0; row < 4; ++row) {
+            double& sum = y[4 * block + row];
+            for (int column = 0; column < 4; ++column) {
+                sum += a[4 * column + row] * x[column];
+                if (block > 0) sums[column][row] += a[4 * column + row] * x[4 * block + row];
+            }
+        }
+    for (int column = 0; column < 4; ++column)
+        y[column] += (sums[column][0] + sums[column][1]) + (sums[column][2] + sums[column][3]);
+}
+
+#if DAMSLIP_HAS_AVX2
+DAMSLIP_AVX2 void add_panel_avx2(const double* a, const double* const x, const Index blocks, double* const y)
+{
+    const __m256d factors[4]{_mm256_broadcast_sd(x), _mm256_broadcast_sd(x + 1), _mm256_broadcast_sd(x + 2),
+                             _mm256_broadcast_sd(x + 3)};
+    __m256d sums[4]{_mm256_setzero_pd(), _mm256_setzero_pd(), _mm256_setzero_pd(), _mm256_setzero_pd()};
+    __m256d first = _mm256_loadu_pd(y);
+    for (int c = 0; c < 4; ++c) first = _mm256_add_pd(first, _mm256_mul_pd(_mm256_loadu_pd(a + 4 * c), factors[c]));
+    _mm256_storeu_pd(y, first);
+    for (Index block = 1; block < blocks; ++block) {
+        a += 16;
+        const __m256d of_rows = _mm256_loadu_pd(x + 4 * block);
+        __m256d rows = _mm256_loadu_pd(y + 4 * block);
+        for (int c = 0; c < 4; ++c) {
+            const __m256d column = _mm256_loadu_pd(a + 4 * c);
+            rows = _mm256_add_pd(rows, _mm256_mul_pd(column, factors[c]));
+            sums[c] = _mm256_add_pd(sums[c], _mm256_mul_pd(column, of_rows));
+        }
+        _mm256_storeu_pd(y + 4 * block, rows);
+    }
+    for (int c = 0; c < 4; ++c) {
+        alignas(32) double sum[4];
+        _mm256_store_pd(sum, sums[c]);
+        y[c] += (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    }
+}
+#endif
+
+} // namespace
+
+SymmetricProduct::SymmetricProduct(const MatrixXd& matrix) : rows_(matrix.rows()), blocks_((matrix.rows() + 3) / 4)
+{
+    MatrixXd whole = MatrixXd::Zero(4 * blocks_, 4 * blocks_); // the last four is filled up with zeros
+    whole.topLeftCorner(rows_, rows_) = matrix;
+    for (Index column = 0; column < 4 * blocks_; column += 4)
+        for (Index row = column; row < 4 * blocks_; row += 4)
+            for (Index c = column; c < column + 4; ++c)
+                for (Index r = row; r < row + 4; ++r) panels_.push_back(whole(std::max(r, c), std::min(r, c)));
+}
+
+void SymmetricProduct::add(const Eigen::Ref<const VectorXd>& x, Eigen::Ref<VectorXd> y, VectorXd& room,
+                           [[maybe_unused]] VectorLevel level) const
+{
+    const Index padded = 4 * blocks_;
+    room.setZero(2 * padded);
+    room.head(rows_) = x;
+    room.segment(padded, rows_) = y;
+    const double* panel = panels_.data();
+    for (Index block = 0; block < blocks_; ++block) {
+        const double* const from = room.data() + 4 * block;
+        double* const to = room.data() + padded + 4 * block;
+#if DAMSLIP_HAS_AVX2
+        if (level == VectorLevel::avx2) add_panel_avx2(panel, from, blocks_ - block, to);
+        else
+#endif
+            add_panel(panel, from, blocks_ - block, to);
+        panel += 16 * (blocks_ - block);
+    }
+    y = room.segment(padded, rows_);
+}
+
 } // namespace damslip::fe2d

@@ -72,4 +72,22 @@ private:
         columns_of_two_; ///< by two columns, by two rows: both rows of the first column, then of the second
 };
 
+/// y += A x of a symmetric matrix, of which one half is kept and read, since a product takes as long as its matrix takes to come: columns
+/// by four, of each four the rows from their own block down. A product adds a block on the diagonal as it stands, and one below it twice.
+class SymmetricProduct {
+public:
+    /// @param matrix  the half below the diagonal is copied
+    explicit SymmetricProduct(const Eigen::MatrixXd& matrix);
+    SymmetricProduct() = default; ///< of no rows
+
+    Eigen::Index rows() const { return rows_; }
+    /// @param room  work space @param level  the same bits on every level
+    void add(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> y, Eigen::VectorXd& room,
+             VectorLevel level = vector_level()) const;
+
+private:
+    Eigen::Index rows_ = 0, blocks_ = 0; ///< blocks of four rows
+    std::vector<double> panels_;         ///< by four columns, by blocks of four rows, by columns
+};
+
 } // namespace damslip::fe2d

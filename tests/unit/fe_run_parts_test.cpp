@@ -150,6 +150,22 @@ TEST(FeRunParts, transposed_products_have_the_bits_of_the_expression)
         }
 }
 
+// Of one half of the matrix: the product to round-off, the same bits by four numbers at a time as by one.
+TEST(FeRunParts, symmetric_products_of_one_half)
+{
+    for (const Index rows : {1, 3, 4, 6, 28, 61, 152}) {
+        const MatrixXd any = uneven(rows * rows).reshaped(rows, rows), matrix = any + any.transpose();
+        const VectorXd x = uneven(rows).reverse(), y = uneven(rows);
+        const SymmetricProduct product(matrix);
+        VectorXd room, by_one = y, result = y;
+        product.add(x, by_one, room, VectorLevel::sse2);
+        product.add(x, result, room);
+        EXPECT_TRUE(result == by_one) << rows;
+        const VectorXd terms = y.cwiseAbs() + matrix.cwiseAbs() * x.cwiseAbs();
+        EXPECT_LE(((result - (y + matrix * x)).cwiseAbs().array() / terms.array()).maxCoeff(), 1e-14) << rows;
+    }
+}
+
 TEST(FeRunParts, columns_are_taken_off_one_after_the_other)
 {
     const MatrixXd matrix = uneven(61 * 30).reshaped(61, 30);
