@@ -17,66 +17,126 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// The rows of a combination, with and without crack, at the scene's own water levels.
+/// What a combination changes of water and strength, as far as lifts and seams can follow it.
+bool changes_planes(const Scene& scene, const Combination& c)
+{
+    const auto other = [](const std::optional<double>& level, const auto& water) {
+        return level && (!water || *level != water->level);
+    };
+    return other(c.reservoir_level, scene.reservoir) || other(c.tailwater_level, scene.tailwater) || !c.drains_effective ||
+           c.friction_divisor != 1.0 || c.cohesion_divisor != 1.0;
+}
+
+void divide(Contact& strength, const Combination& c)
+{
+    strength.friction /= c.friction_divisor;
+    if (strength.residual_friction) *strength.residual_friction /= c.friction_divisor;
+    for (Point& p : strength.friction_table) p.y /= c.friction_divisor;
+    strength.cohesion /= c.cohesion_divisor;
+}
+
+Scene in_combination(Scene scene, const Combination& c)
+{
+    if (c.reservoir_level && scene.reservoir) scene.reservoir->level = *c.reservoir_level;
+    if (c.tailwater_level) scene.tailwater = Tailwater{*c.tailwater_level};
+    if (!c.drains_effective) {
+        if (scene.drains) scene.drains->efficiency = 0.0;
+        if (scene.lifts) scene.lifts->drains_efficiency = 0.0;
+    }
+    if (scene.lifts) divide(scene.lifts->strength, c);
+    for (LiftJoint& joint : scene.lift_joints) divide(joint.strength, c);
+    for (Seam& seam : scene.seams) {
+        divide(seam.strength, c);
+        seam.interface.friction /= c.friction_divisor;
+        seam.interface.cohesion /= c.cohesion_divisor;
+        if (!seam.wedge) continue;
+        seam.wedge->friction /= c.friction_divisor;
+        seam.wedge->cohesion /= c.cohesion_divisor;
+    }
+    return scene;
+}
+
+/// A state that factors are asked for, and the scene in it where that differs.
 struct FoundState {
-    std::string name;
-    double k_h = 0.0, k_v = 0.0;
-    std::optional<double> required, factor;
+    PlaneState state;
+    std::optional<Scene> own = {};
 };
 
+/// The combinations before the earthquake's end: of the rows with and without crack the least factor of the base.
 std::vector<FoundState> states_of(const Scene& scene, const std::vector<sliding::Equilibrium>& combinations)
 {
-    const auto level = [](const auto& water) { return water ? std::optional(water->level) : std::nullopt; };
     std::vector<FoundState> states;
     for (const sliding::Equilibrium& e : combinations) {
-        const bool own_water = e.reservoir_level == level(scene.reservoir) && e.tailwater_level == level(scene.tailwater);
-        if (!own_water || e.kind == CombinationKind::post_seismic) continue;
+        if (e.kind == CombinationKind::post_seismic) continue;
         const std::string name = e.name.substr(0, e.name.rfind(", cracked"));
-        auto state = std::find_if(states.begin(), states.end(), [&](const FoundState& s) { return s.name == name; });
-        if (state == states.end()) state = states.insert(states.end(), {name, e.k_h, e.k_v, {}, {}});
-        if (std::isfinite(e.sliding_factor)) state->factor = std::min(state->factor.value_or(infinite), e.sliding_factor);
+        auto found = std::find_if(states.begin(), states.end(), [&](const FoundState& s) { return s.state.ground.name == name; });
+        if (found == states.end()) {
+            found = states.insert(states.end(), FoundState{PlaneState{{name, e.k_h * units::standard_gravity, e.k_v * units::standard_gravity}, {}, {}}});
+            for (const Combination& c : scene.combinations)
+                if (c.name == name && changes_planes(scene, c)) found->own = in_combination(scene, c);
+        }
+        PlaneState& state = found->state;
+        if (std::isfinite(e.sliding_factor)) state.of_base = std::min(state.of_base.value_or(infinite), e.sliding_factor);
         for (const sliding::Check& check : e.checks)
             if (check.quantity.starts_with("sliding, peak") && check.required)
-                state->required = std::max(state->required.value_or(0.0), *check.required);
+                state.required = std::max(state.required.value_or(0.0), *check.required);
     }
     return states;
 }
 
-/// The first combination without an earthquake, and the one with the largest k_h.
-std::vector<PlaneState> plane_states(const Scene& scene, const std::vector<sliding::Equilibrium>& combinations)
+/// The first combination without an earthquake at the scene's own water and strength, those with others, and the one with the largest k_h.
+std::vector<FoundState> plane_states(const Scene& scene, const std::vector<sliding::Equilibrium>& combinations)
 {
-    const std::vector<FoundState> all = states_of(scene, combinations);
-    const FoundState* still = nullptr;
-    const FoundState* shaken = nullptr;
-    for (const FoundState& s : all) {
-        if (s.k_h == 0.0 && s.k_v == 0.0 && !still) still = &s;
-        if (s.k_h > 0.0 && (!shaken || s.k_h > shaken->k_h)) shaken = &s;
-    }
-    const auto state = [](const FoundState& s) {
-        return PlaneState{{s.name, s.k_h * units::standard_gravity, s.k_v * units::standard_gravity}, s.required, s.factor};
-    };
-    std::vector<PlaneState> states{still ? state(*still) : PlaneState{{"static"}, {}, {}}};
-    if (shaken) states.push_back(state(*shaken));
+    const auto moves = [](const FoundState& s) { return s.state.ground.a_h != 0.0 || s.state.ground.a_v != 0.0; };
+    std::vector<FoundState> all = states_of(scene, combinations), states;
+    const auto still = std::find_if(all.begin(), all.end(), [&](const FoundState& s) { return !s.own && !moves(s); });
+    const auto shaken = std::max_element(all.begin(), all.end(), [](const FoundState& a, const FoundState& b) {
+        return a.state.ground.a_h < b.state.ground.a_h;
+    });
+    states.push_back(still != all.end() ? *still : FoundState{PlaneState{{"static"}, {}, {}}});
+    for (auto s = all.begin(); s != all.end(); ++s)
+        if (s->own && s != shaken) states.push_back(*s);
+    if (shaken != all.end() && (shaken->state.ground.a_h > 0.0 || shaken->own)) states.push_back(*shaken);
     return states;
 }
 
-/// Of the scene's load combinations those that say more of a state than k_h and k_v, which lifts and seams do not follow.
+/// Of the scene's load combinations those that say what lifts and seams do not follow.
 std::vector<std::string> of_base_alone(const Scene& scene)
 {
     const auto more = [&](const Combination& c) {
-        const double factors[]{c.weight_factor, c.water_factor, c.uplift_factor, c.silt_factor, c.ice_factor, c.friction_divisor,
-                               c.cohesion_divisor};
-        const auto other = [](const std::optional<double>& level, const auto& water) {
-            return level && (!water || *level != water->level);
-        };
-        return !c.drains_effective || !c.curtain_intact || c.residual_strength || c.gates_open || c.friction || c.cohesion ||
-               !c.k_profile.empty() || other(c.reservoir_level, scene.reservoir) || other(c.tailwater_level, scene.tailwater) ||
+        const double factors[]{c.weight_factor, c.water_factor, c.uplift_factor, c.silt_factor, c.ice_factor};
+        return !c.curtain_intact || c.residual_strength || c.gates_open || c.friction || c.cohesion || !c.k_profile.empty() ||
+               (c.reservoir_level && !scene.reservoir) ||
                std::any_of(std::begin(factors), std::end(factors), [](double factor) { return factor != 1.0; });
     };
     std::vector<std::string> names;
     for (const Combination& c : scene.combinations)
         if (c.kind != CombinationKind::post_seismic && more(c)) names.push_back(fmt::format("\"{}\"", c.name));
     return names;
+}
+
+/// Adds the factors of a state whose scene differs. @param place  of the state among all @param modes  as of lift_planes()
+void add_own_state(const FoundState& found, std::size_t place, std::span<const sliding::LiftAmplification> modes, Planes& planes)
+{
+    const std::vector<sliding::GroundState> grounds{{"static"}, found.state.ground};
+    const auto at = [place](auto& values) { return values.begin() + static_cast<std::ptrdiff_t>(place); };
+    if (!planes.lifts.empty()) {
+        std::vector<sliding::LiftPlane> lifts = sliding::lift_planes(*found.own, grounds, modes);
+        for (std::size_t i = 0; i < lifts.size(); ++i)
+            planes.lifts[i].states.insert(at(planes.lifts[i].states), std::move(lifts[i].states.back()));
+    }
+    for (std::size_t i = 0; i < planes.seams.size(); ++i) {
+        const sliding::SeamPlane own = sliding::seam_plane(*found.own, found.own->seams[i], grounds);
+        sliding::SeamPlane& seam = planes.seams[i];
+        seam.factors.insert(at(seam.factors), own.factors.back());
+        for (sliding::WedgeTrial& trial : seam.trials) { // the minima of the search differ
+            const auto same = std::find_if(own.trials.begin(), own.trials.end(),
+                                           [&](const sliding::WedgeTrial& t) { return t.angle == trial.angle; });
+            const bool found_it = same != own.trials.end();
+            trial.factors.insert(at(trial.factors), found_it ? same->factors.back() : std::numeric_limits<double>::quiet_NaN());
+            trial.statuses.insert(at(trial.statuses), found_it ? same->statuses.back() : sliding::ChainStatus::stands);
+        }
+    }
 }
 
 std::optional<double> finite(double x)
@@ -296,18 +356,20 @@ Planes find_planes(const Ready& ready, const std::vector<sliding::Equilibrium>& 
     Scene scene = ready.scene;
     restore_lift_joints(scene, ready.given);
     if (!scene.lifts && scene.seams.empty()) return planes;
-    planes.states = plane_states(scene, combinations);
+    const std::vector<FoundState> found = plane_states(scene, combinations);
+    for (const FoundState& f : found) planes.states.push_back(f.state);
     if (!scene.seams.empty() && std::any_of(scene.anchors.begin(), scene.anchors.end(), [](const Anchor& a) { return a.joint.empty(); }))
         planes.warnings.push_back("anchors through the base do not count on seams: how far they reach down is not known.");
     if (std::any_of(scene.anchors.begin(), scene.anchors.end(), [](const Anchor& a) { return !a.joint.empty() && a.limit_force == AnchorForceRule::yield; }))
         planes.warnings.push_back("factors and yield accelerations of lifts count the prestress of anchors alone; what stretches a bar counts in the slip.");
     if (const std::vector<std::string> names = of_base_alone(scene); !names.empty())
         planes.warnings.push_back(fmt::format(
-            "load combinations {}: their own water, drains, factors and strengths are of the base alone; lifts and seams are "
-            "judged with k_h, k_v and the loads and strengths of the scene.",
+            "load combinations {}: load factors, ruptured curtain, residual strength, open gates, friction, cohesion and k_profile "
+            "of their own are of the base alone.",
             fmt::join(names, ", ")));
     std::vector<sliding::GroundState> grounds;
-    for (const PlaneState& state : planes.states) grounds.push_back(state.ground);
+    for (const FoundState& f : found)
+        if (!f.own) grounds.push_back(f.state.ground);
 
     PlaneRow of_base{.kind = PlaneKind::base, .name = base_plane};
     for (const PlaneState& state : planes.states) of_base.factors.push_back(state.of_base);
@@ -319,11 +381,14 @@ Planes find_planes(const Ready& ready, const std::vector<sliding::Equilibrium>& 
     std::vector<sliding::SkippingMotion> motions;
     for (const RecordPair& pair : ready.records()) motions.emplace_back(ground_motion(scene, pair));
     const std::optional<LiftModes> modes = lifts_vibrate(scene) ? std::optional(lift_modes(scene)) : std::nullopt;
-    if (modes) planes.lifts = sliding::lift_planes(scene, grounds, lift_amplification(*modes, motions, scene.damping.ratio));
-    else if (scene.lifts) planes.lifts = sliding::lift_planes(scene, grounds);
+    const std::vector<sliding::LiftAmplification> amplification =
+        modes ? lift_amplification(*modes, motions, scene.damping.ratio) : std::vector<sliding::LiftAmplification>();
+    if (scene.lifts) planes.lifts = sliding::lift_planes(scene, grounds, amplification);
     planes.seams.resize(scene.seams.size());
     parallel_for(scene.seams.size(), jobs,
                  [&](std::size_t i) { planes.seams[i] = sliding::seam_plane(scene, scene.seams[i], grounds); });
+    for (std::size_t k = 0; k < found.size(); ++k)
+        if (found[k].own) add_own_state(found[k], k, amplification, planes);
     std::vector<Sliding> all;
     for (std::size_t i = 0; i < planes.lifts.size(); ++i) {
         all.push_back(of_lift(planes.lifts[i], i));

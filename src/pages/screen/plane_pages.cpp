@@ -65,6 +65,9 @@ Table plane_table(const Planes& planes, const Scene& scene, PlaneRows which)
     if (last > 0)
         columns.push_back({{"factor_" + std::string("static"), "F " + planes.states.front().ground.name, "–", 4},
                            [row](R i) { return factor_cell(row(i), 0); }});
+    for (std::size_t k = 1; k < last; ++k)
+        columns.push_back({{fmt::format("factor_{}", k), "F " + planes.states[k].ground.name, "–", 4},
+                           [row, k](R i) { return factor_cell(row(i), k); }});
     columns.push_back({in_brief({"factor", "F " + planes.states[last].ground.name, "–", 4}),
                        [row, last](R i) { return factor_cell(row(i), last); }});
     if (std::ranges::any_of(planes.states, [](const PlaneState& s) { return s.required.has_value(); }))
