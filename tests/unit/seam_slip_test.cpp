@@ -1,5 +1,7 @@
 // Slip on a seam with a passive wedge under a shipped record, against an independent integration of the chain of blocks.
+#include "analysis/screen/screening.hpp"
 #include "records/read/read_record.hpp"
+#include "scene/read.hpp"
 #include "sliding/block/rigid_block.hpp"
 #include "sliding/block/slide.hpp"
 #include "sliding/planes/seam.hpp"
@@ -30,6 +32,34 @@ double slip(const Scene& scene, bool vertical, int polarity)
     options.sliding.two_way = false;
     const sliding::SeamPlane plane = sliding::seam_plane(scene, scene.seams[0], {{"static"}});
     return 1e3 * sliding::slide(motion, plane.stages, options).max_slip;
+}
+
+/// Factor of the seam in a state of the screening.
+double factor_in(const Scene& scene, const std::string& state)
+{
+    const Screening screening = run_screening(prepare(scene, Method::rigid_block), 1);
+    const Planes& planes = screening.planes;
+    for (std::size_t k = 0; k < planes.states.size(); ++k)
+        if (planes.states[k].ground.name == state) return planes.rows.back().factors[k].value();
+    ADD_FAILURE() << state;
+    return 0.0;
+}
+
+// A combination with a water level, drains or partial factors of its own is the scene with them.
+TEST(SeamSlip, CombinationsAreScenesOfTheirOwn)
+{
+    Scene scene = read_scene(std::string(source_dir()) + "/examples/seam_dam.toml");
+    for (const char* name : {"usual", "low", "no drains", "halved"}) scene.combinations.emplace_back().name = name;
+    scene.combinations[1].reservoir_level = 55.0;
+    scene.combinations[2].drains_effective = false;
+    scene.combinations[3].friction_divisor = scene.combinations[3].cohesion_divisor = 2.0;
+    Scene low = scene, undrained = scene;
+    low.reservoir->level = 55.0;
+    undrained.drains->efficiency = 0.0;
+    EXPECT_NEAR(factor_in(scene, "low"), factor_in(low, "usual"), 1e-9);
+    EXPECT_NEAR(factor_in(scene, "no drains"), factor_in(undrained, "usual"), 1e-9);
+    EXPECT_NEAR(factor_in(scene, "halved"), 0.5 * factor_in(scene, "usual"), 1e-9);
+    EXPECT_GT(factor_in(scene, "low"), 1.1 * factor_in(scene, "usual"));
 }
 
 TEST(SeamSlip, IsThatOfAnIndependentIntegration)
