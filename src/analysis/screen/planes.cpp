@@ -71,7 +71,8 @@ std::vector<FoundState> states_of(const Scene& scene, const std::vector<sliding:
         const std::string name = e.name.substr(0, e.name.rfind(", cracked"));
         auto found = std::find_if(states.begin(), states.end(), [&](const FoundState& s) { return s.state.ground.name == name; });
         if (found == states.end()) {
-            found = states.insert(states.end(), FoundState{PlaneState{{name, e.k_h * units::standard_gravity, e.k_v * units::standard_gravity}, {}, {}}});
+            const sliding::GroundState ground{name, e.k_h * units::standard_gravity, e.k_v * units::standard_gravity};
+            found = states.insert(states.end(), FoundState{PlaneState{ground, {}, {}}});
             for (const Combination& c : scene.combinations)
                 if (c.name == name && changes_planes(scene, c)) found->own = in_combination(scene, c);
         }
@@ -360,8 +361,10 @@ Planes find_planes(const Ready& ready, const std::vector<sliding::Equilibrium>& 
     for (const FoundState& f : found) planes.states.push_back(f.state);
     if (!scene.seams.empty() && std::any_of(scene.anchors.begin(), scene.anchors.end(), [](const Anchor& a) { return a.joint.empty(); }))
         planes.warnings.push_back("anchors through the base do not count on seams: how far they reach down is not known.");
-    if (std::any_of(scene.anchors.begin(), scene.anchors.end(), [](const Anchor& a) { return !a.joint.empty() && a.limit_force == AnchorForceRule::yield; }))
-        planes.warnings.push_back("factors and yield accelerations of lifts count the prestress of anchors alone; what stretches a bar counts in the slip.");
+    if (std::any_of(scene.anchors.begin(), scene.anchors.end(),
+                    [](const Anchor& a) { return !a.joint.empty() && a.limit_force == AnchorForceRule::yield; }))
+        planes.warnings.push_back("factors and yield accelerations of lifts count the prestress of anchors alone; what stretches a bar "
+                                  "counts in the slip.");
     if (const std::vector<std::string> names = of_base_alone(scene); !names.empty())
         planes.warnings.push_back(fmt::format(
             "load combinations {}: load factors, ruptured curtain, residual strength, open gates, friction, cohesion and k_profile "
