@@ -106,12 +106,6 @@ ReducedRun::Motion ReducedRun::motion_of(const GroundMotion& motion, const std::
             halvings};
 }
 
-ReducedRun::Motion ReducedRun::doubled(Motion motion)
-{
-    motion.dt *= 2.0;
-    return motion;
-}
-
 namespace {
 
 /// A series on rows half as far apart, linear in between.
@@ -147,8 +141,16 @@ ReducedState ReducedRun::shake_with(int halvings, Motion& motion, const Start& s
     motion.parts = 1 << std::max(0, halvings);
     strength = start.strength;
     result.halvings = halvings;
-    ReducedState end = shake(halvings < 0 ? doubled(motion) : motion, *model_, strength, start.rest, &start.balance, result);
-    if (halvings < 0) result.history.slip = between_rows(result.history.slip);
+    const auto pass = [&](const Motion& steps) { return shake(steps, *model_, strength, start.rest, &start.balance, result); };
+    ReducedState end;
+    if (halvings < 0) {
+        Motion twice = motion;
+        twice.dt *= 2.0;
+        end = pass(twice);
+        result.history.slip = between_rows(result.history.slip);
+    } else {
+        end = pass(motion);
+    }
     result.pair_slip = end.contact.slip - start.rest.slip;
     return end;
 }
@@ -185,6 +187,7 @@ ReducedState ReducedRun::refine(Motion& motion, Strength& strength, const Start&
         if (k == 0) first_slips = result.history.slip;
         slips.push_back({k, result.slip, largest_difference(coarser, result.history.slip)});
         result.slip_error = step_error(slips, strength.constant() ? contact_order : sudden_order);
+        if (k == 0 && result.status != Status::at_rest) continue; // two passes that coarse tell of a slip that is final alone
         if (result.slip_error <= wanted(result)) break;
         if (was_self_excited && result.status == Status::self_excited) break; // both agree; there is no slip to refine
     }

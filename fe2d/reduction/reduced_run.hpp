@@ -79,7 +79,6 @@ private:
     Motion motion_of(const GroundMotion& motion, const std::optional<int>& halvings) const;
     /// The static stages, into `result`.
     Start stand(StaticContact& statics, const Contact& contact, RunResult& result) const;
-    static Motion doubled(Motion motion); ///< on steps twice as long
     /// One pass. @param halvings  -1: with twice the step; of its history the slip alone has the rows of the others
     /// @param strength  gets that at the end
     ReducedState shake_with(int halvings, Motion& motion, const Start& start, Strength& strength, RunResult& result) const;

@@ -235,7 +235,7 @@ void TransposedProduct::add(const Eigen::VectorXd& x, Eigen::VectorXd& y, [[mayb
 
 namespace {
 
-/// One four of columns: the block on the diagonal, then those below it. @param x, y  from the diagonal on
+/// Four columns: the block on the diagonal, then those below it. @param x, y  from the diagonal on
 void add_panel(const double* a, const double* const x, const Index blocks, double* const y)
 {
     double sums[4][4] = {};

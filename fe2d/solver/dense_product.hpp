@@ -72,8 +72,8 @@ private:
         columns_of_two_; ///< by two columns, by two rows: both rows of the first column, then of the second
 };
 
-/// y += A x of a symmetric matrix, of which one half is kept and read, since a product takes as long as its matrix takes to come: columns
-/// by four, of each four the rows from their own block down. A product adds a block on the diagonal as it stands, and one below it twice.
+/// y += A x of a symmetric matrix. Such a product takes as long as its matrix takes to be read, so one half of it is kept: of each four
+/// columns the blocks of four rows from the diagonal down. A block below the diagonal serves its rows and, transposed, its columns.
 class SymmetricProduct {
 public:
     /// @param matrix  the half below the diagonal is copied

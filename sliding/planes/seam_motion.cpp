@@ -192,39 +192,24 @@ public:
         double x = x_, rate = rate_, path = path_, time = time_, fastest = out_.slide.peak_slip_rate, x_first = x;
         const std::size_t first = k;
         const Form& loosens = together() ? stage().gain : stage().of_wedge; // above zero: the wedge may move by itself
-        // What does not depend on the rate comes first, side by side; then the sums, one after the other.
-        constexpr std::size_t at_once = 16;
-        std::array<double, at_once + 1> accel, loose;
-        std::array<double, at_once> slows, moves, gains, most;
-        for (bool goes_on = true; goes_on && k < last;) {
-            const std::size_t count = std::min(at_once, last - k);
-            for (std::size_t i = 0; i <= count; ++i) accel[i] = (per_a_h * a_h(k + i) + per_a_v * a_v(k + i)) + constant;
-            if (may_loosen)
-                for (std::size_t i = 0; i <= count; ++i) loose[i] = loosens.at(a_h(k + i), a_v(k + i));
-            for (std::size_t i = 0; i < count; ++i) {
-                const double now = accel[i], end = accel[i + 1], jerk = (end - now) / dt;
-                slows[i] = std::min(way * now, way * end) * dt;
-                moves[i] = (0.5 * now + jerk * dt / 6.0) * dt * dt;
-                gains[i] = (now + 0.5 * jerk * dt) * dt;
-                most[i] = std::max(std::abs(now), std::abs(end)) * dt;
+        double end = (per_a_h * a_h(k) + per_a_v * a_v(k)) + constant;
+        for (; k < last; ++k) {
+            const double now = end;
+            end = (per_a_h * a_h(k + 1) + per_a_v * a_v(k + 1)) + constant;
+            const double speed = std::abs(rate), slower = std::min(way * now, way * end);
+            if (!((1.0 - margin) * speed + slower * dt > 0.0)) break;
+            if (may_loosen && std::max(loosens.at(a_h(k), a_v(k)), loosens.at(a_h(k + 1), a_v(k + 1))) > 0.0) break;
+            if (ends_somewhere) {
+                const double furthest = (speed + std::max(std::abs(now), std::abs(end)) * dt) * dt;
+                if (stage_end - path <= furthest || meets - x <= furthest) break;
             }
-            for (std::size_t i = 0; i < count; ++i) {
-                const double speed = std::abs(rate);
-                goes_on = (1.0 - margin) * speed + slows[i] > 0.0 && !(may_loosen && std::max(loose[i], loose[i + 1]) > 0.0);
-                if (goes_on && ends_somewhere) {
-                    const double furthest = (speed + most[i]) * dt;
-                    goes_on = !(stage_end - path <= furthest || meets - x <= furthest);
-                }
-                if (!goes_on) break;
-                const double moved = rate * dt + moves[i];
-                x += moved;
-                path += std::abs(moved);
-                rate += gains[i];
-                fastest = std::max(fastest, std::abs(rate));
-                time += dt;
-                if (k == first) x_first = x;
-                ++k;
-            }
+            const double jerk = (end - now) / dt, moved = rate * dt + (0.5 * now + jerk * dt / 6.0) * dt * dt;
+            x += moved;
+            path += std::abs(moved);
+            rate += (now + 0.5 * jerk * dt) * dt;
+            fastest = std::max(fastest, std::abs(rate));
+            time += dt;
+            if (k == first) x_first = x;
         }
         if (k == first) return k;
         for (const double place : {x_first, x}) see(place); // the body goes one way: slip and gap are largest at one of the two

@@ -21,7 +21,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 bool changes_planes(const Scene& scene, const Combination& c)
 {
     const auto other = [](const std::optional<double>& level, const auto& water) {
-        return level && (!water || *level != water->level);
+        return level && *level != water->level;
     };
     return other(c.reservoir_level, scene.reservoir) || other(c.tailwater_level, scene.tailwater) || !c.drains_effective ||
            c.friction_divisor != 1.0 || c.cohesion_divisor != 1.0;
@@ -37,8 +37,8 @@ void divide(Contact& strength, const Combination& c)
 
 Scene in_combination(Scene scene, const Combination& c)
 {
-    if (c.reservoir_level && scene.reservoir) scene.reservoir->level = *c.reservoir_level;
-    if (c.tailwater_level) scene.tailwater = Tailwater{*c.tailwater_level};
+    if (c.reservoir_level) scene.reservoir->level = *c.reservoir_level; // levels are of water that the scene has (check_water.cpp)
+    if (c.tailwater_level) scene.tailwater->level = *c.tailwater_level;
     if (!c.drains_effective) {
         if (scene.drains) scene.drains->efficiency = 0.0;
         if (scene.lifts) scene.lifts->drains_efficiency = 0.0;
@@ -104,10 +104,9 @@ std::vector<FoundState> plane_states(const Scene& scene, const std::vector<slidi
 /// Of the scene's load combinations those that say what lifts and seams do not follow.
 std::vector<std::string> of_base_alone(const Scene& scene)
 {
-    const auto more = [&](const Combination& c) {
+    const auto more = [](const Combination& c) {
         const double factors[]{c.weight_factor, c.water_factor, c.uplift_factor, c.silt_factor, c.ice_factor};
         return !c.curtain_intact || c.residual_strength || c.gates_open || c.friction || c.cohesion || !c.k_profile.empty() ||
-               (c.reservoir_level && !scene.reservoir) ||
                std::any_of(std::begin(factors), std::end(factors), [](double factor) { return factor != 1.0; });
     };
     std::vector<std::string> names;
@@ -130,12 +129,12 @@ void add_own_state(const FoundState& found, std::size_t place, std::span<const s
         const sliding::SeamPlane own = sliding::seam_plane(*found.own, found.own->seams[i], grounds);
         sliding::SeamPlane& seam = planes.seams[i];
         seam.factors.insert(at(seam.factors), own.factors.back());
-        for (sliding::WedgeTrial& trial : seam.trials) { // the minima of the search differ
-            const auto same = std::find_if(own.trials.begin(), own.trials.end(),
-                                           [&](const sliding::WedgeTrial& t) { return t.angle == trial.angle; });
-            const bool found_it = same != own.trials.end();
-            trial.factors.insert(at(trial.factors), found_it ? same->factors.back() : std::numeric_limits<double>::quiet_NaN());
-            trial.statuses.insert(at(trial.statuses), found_it ? same->statuses.back() : sliding::ChainStatus::stands);
+        for (sliding::WedgeTrial& trial : seam.trials) { // the minima of the searches differ: no factor there, the status next to it
+            auto next = std::ranges::lower_bound(own.trials, trial.angle, {}, &sliding::WedgeTrial::angle);
+            const bool tried = next != own.trials.end() && next->angle == trial.angle;
+            if (next == own.trials.end()) --next;
+            trial.factors.insert(at(trial.factors), tried ? next->factors.back() : std::numeric_limits<double>::quiet_NaN());
+            trial.statuses.insert(at(trial.statuses), next->statuses.back());
         }
     }
 }
@@ -190,11 +189,12 @@ bool stands(sliding::ChainStatus status)
 /// Does the wedge fall at an angle next to that of the k-th factor?
 bool beside_one_that_falls(const sliding::SeamPlane& plane, std::size_t k)
 {
-    const auto here = std::find_if(plane.trials.begin(), plane.trials.end(),
-                                   [&](const sliding::WedgeTrial& trial) { return trial.angle == plane.factors[k].angle; });
-    if (here == plane.trials.end()) return false;
-    return (here != plane.trials.begin() && !stands(std::prev(here)->statuses[k])) ||
-           (std::next(here) != plane.trials.end() && !stands(std::next(here)->statuses[k]));
+    if (!plane.factors[k].angle) return false;
+    const double angle = *plane.factors[k].angle;
+    const auto next = std::ranges::lower_bound(plane.trials, angle, {}, &sliding::WedgeTrial::angle);
+    const auto falls = [k](const sliding::WedgeTrial& trial) { return !stands(trial.statuses[k]); };
+    const auto above = next != plane.trials.end() && next->angle == angle ? std::next(next) : next;
+    return (next != plane.trials.begin() && falls(*std::prev(next))) || (above != plane.trials.end() && falls(*above));
 }
 
 void add_seam_warnings(const Scene& scene, const PlaneRow& row, const sliding::SeamPlane& plane,
