@@ -108,6 +108,8 @@ ReducedRun::Motion ReducedRun::motion_of(const GroundMotion& motion, const std::
 
 namespace {
 
+constexpr int most_doublings = -2; ///< halvings of the first pass where only the side of limits is asked for
+
 /// A series on rows half as far apart, linear in between.
 std::vector<double> between_rows(const std::vector<double>& series)
 {
@@ -141,16 +143,10 @@ ReducedState ReducedRun::shake_with(int halvings, Motion& motion, const Start& s
     motion.parts = 1 << std::max(0, halvings);
     strength = start.strength;
     result.halvings = halvings;
-    const auto pass = [&](const Motion& steps) { return shake(steps, *model_, strength, start.rest, &start.balance, result); };
-    ReducedState end;
-    if (halvings < 0) {
-        Motion twice = motion;
-        twice.dt *= 2.0;
-        end = pass(twice);
-        result.history.slip = between_rows(result.history.slip);
-    } else {
-        end = pass(motion);
-    }
+    Motion steps = motion;
+    steps.dt = std::ldexp(motion.dt, std::max(0, -halvings));
+    ReducedState end = shake(steps, *model_, strength, start.rest, &start.balance, result);
+    for (int doubled = halvings; doubled < 0; ++doubled) result.history.slip = between_rows(result.history.slip);
     result.pair_slip = end.contact.slip - start.rest.slip;
     return end;
 }
@@ -176,7 +172,7 @@ std::vector<RunResult> ReducedRun::passes(const Shaking& shaking, const Enough& 
 ReducedState ReducedRun::refine(Motion& motion, Strength& strength, const Start& start, RunResult& result,
                                 std::vector<double>& first_slips) const
 {
-    const int first = motion.halvings.value_or(options_.slip_limits.empty() ? 0 : -1);
+    const int first = motion.halvings.value_or(options_.slip_limits.empty() ? 0 : most_doublings);
     ReducedState end = shake_with(first, motion, start, strength, result);
     first_slips = result.history.slip;
     std::vector<SlipAtStep> slips{{first, result.slip, 0.0}};
@@ -184,10 +180,10 @@ ReducedState ReducedRun::refine(Motion& motion, Strength& strength, const Start&
         const std::vector<double> coarser = result.history.slip;
         const bool was_self_excited = result.status == Status::self_excited;
         end = shake_with(k, motion, start, strength, result);
-        if (k == 0) first_slips = result.history.slip;
+        if (k <= 0) first_slips = result.history.slip;
         slips.push_back({k, result.slip, largest_difference(coarser, result.history.slip)});
         result.slip_error = step_error(slips, strength.constant() ? contact_order : sudden_order);
-        if (k == 0 && result.status != Status::at_rest) continue; // two passes that coarse tell of a slip that is final alone
+        if (k <= 0 && result.status != Status::at_rest) continue; // two passes that coarse tell of a slip that is final alone
         if (result.slip_error <= wanted(result)) break;
         if (was_self_excited && result.status == Status::self_excited) break; // both agree; there is no slip to refine
     }

@@ -232,12 +232,13 @@ void check_scale(FragilityPlan& plan, const std::filesystem::path& file)
     const SuiteInput limits = plan.input.suite.value_or(SuiteInput{});
     std::vector<std::pair<std::size_t, std::size_t>> at_levels;
     for (const FragilitySample& s : plan.samples) {
-        if (!(s.factor > limits.max_scale)) continue;
+        const RecordFiles& files = (*plan.suite.pairs)[s.record].files;
+        const double factor = s.factor * files.scale; // the list's own counts
+        if (!(factor > limits.max_scale)) continue;
         const std::pair at(s.record, s.level);
         if (std::find(at_levels.begin(), at_levels.end(), at) != at_levels.end()) continue;
         at_levels.push_back(at);
-        plan.scaled_far.push_back(fmt::format("{}: factor {:.3g} at level {}", (*plan.suite.pairs)[s.record].files.name,
-                                              s.factor, s.level + 1));
+        plan.scaled_far.push_back(fmt::format("{}: factor {:.3g} at level {}", files.name, factor, s.level + 1));
     }
     if (plan.scaled_far.empty() || limits.allow_scaling) return;
     refuse(file,

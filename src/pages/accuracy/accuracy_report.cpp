@@ -213,8 +213,8 @@ std::string choice_sentence(const std::vector<ModelLevelResult>& results, const 
                            word(results[*j.contradiction].status), results[*j.contradiction].remark);
     if (!j.top_error)
         return fmt::format(
-            "Nothing says how far the finest model level, {}, is from its limit: more steps are needed (larger "
-            "--budget).",
+            "Nothing says how far the finest model level, {}, is from its limit: more steps are needed. Let it run to "
+            "its end, with a larger --budget where that ended it.",
             model_level_id(top.model_level));
     if (!j.choice)
         return fmt::format("No model level is within {:.3g} %: the finest one, {}, itself leaves {:.2g} % open.",
