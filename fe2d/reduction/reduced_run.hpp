@@ -79,7 +79,7 @@ private:
     Motion motion_of(const GroundMotion& motion, const std::optional<int>& halvings) const;
     /// The static stages, into `result`.
     Start stand(StaticContact& statics, const Contact& contact, RunResult& result) const;
-    /// One pass. @param halvings  -1: with twice the step; of its history the slip alone has the rows of the others
+    /// One pass. @param halvings  -k: with 2^k times the step; of its history the slip alone has the rows of the others
     /// @param strength  gets that at the end
     ReducedState shake_with(int halvings, Motion& motion, const Start& start, Strength& strength, RunResult& result) const;
     /// From rest to the end of the run-out; history, slip and counts go into `result`.
@@ -88,7 +88,7 @@ private:
     ReducedState shake(const Motion& motion, const ReducedModel& model, Strength& strength, const ContactMemory& rest,
                        const StageResult* balance, RunResult& result) const;
     /// Passes with halved steps until the slip holds still, or the one pass that is asked for. Where only the side of limits is asked
-    /// for the first one has twice the step: for most slips two coarse passes tell it.
+    /// for the first one has four times the step: for most slips two coarse passes tell it.
     /// @param first  gets the slips of the first pass with the step Δt or the one that is asked for
     /// @returns the state at the end of the last one
     ReducedState refine(Motion& motion, Strength& strength, const Start& start, RunResult& result,

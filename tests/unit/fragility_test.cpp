@@ -131,6 +131,19 @@ TEST(Fragility, RefusesRecordsScaledTooFar)
     EXPECT_EQ(plan_fragility(input, pulse::suite(text), {64}, text.file(), written).scaled_far.size(), 1u);
 }
 
+TEST(Fragility, ScalesOfAListCountForTheLargestOne)
+{
+    FragilityInput input = pulse_input(0.1);
+    input.intensity.levels = {3.0 * pulse::accel};
+    const SceneText text = pulse::scene();
+    ShakingSuite suite = pulse::suite(text);
+    EXPECT_TRUE(plan_fragility(input, suite, {64}, text.file(), written).scaled_far.empty());
+    std::vector<RecordPair> twice = *suite.pairs;
+    twice.front().files.scale = 2.0; // its intensity is that of the scaled record
+    suite.pairs = std::make_shared<const std::vector<RecordPair>>(twice);
+    EXPECT_THROW(plan_fragility(input, suite, {64}, text.file(), written), InputError);
+}
+
 // One-way block under the pulse: D(k g) = d at k = mu*, whatever the dam.
 TEST(Fragility, YieldThatALimitNeeds)
 {
