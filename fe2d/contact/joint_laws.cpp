@@ -1,5 +1,7 @@
 #include "fe2d/contact/joint_laws.hpp"
 
+#include "fe2d/contact/bond_law.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <typeinfo>
@@ -141,6 +143,12 @@ ContactReport JointLawSolver::solve(const VectorXd& stuck_force, const JointTerm
     }
     report.path = ContactPath::unresolved;
     return report;
+}
+
+std::unique_ptr<JointLawSolver> law_solver(std::shared_ptr<const MatrixXd> stiffness, const JointLaws& laws, ContactOptions options)
+{
+    if (laws.find<BondLaw>()) options.gauss_seidel_sweeps = 0;
+    return std::make_unique<JointLawSolver>(std::move(stiffness), options);
 }
 
 JointLaws::JointLaws(const JointLaws& other) : contact_(other.contact_), force_(other.force_)

@@ -85,6 +85,10 @@ private:
     Eigen::VectorXd force_;
 };
 
+/// For these laws. A bond that breaks in a step: shorter ones are cheaper than the slow methods, and their answer is the only one.
+std::unique_ptr<JointLawSolver> law_solver(std::shared_ptr<const Eigen::MatrixXd> stiffness, const JointLaws& laws,
+                                           ContactOptions options);
+
 /// Contact by the scene's law: sticking is rigid (ContactSolver), gives way by a constant stiffness (ElasticStick) or by
 /// elastic slip that follows the pressure (SlipTolerance), as Contact::enforcement says. Across the plane contact is hard
 /// or, with the first two, soft (ExponentialNormal), as Contact::normal says.

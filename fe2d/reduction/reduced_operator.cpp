@@ -406,14 +406,27 @@ void ReducedContact::right_hand_side(const StepConstants& c, const GroundAcceler
     known_.tail(m) -= (system_.slip_damping * (slip - mean)) * system_.weights;
 }
 
-ContactReport ReducedContact::advance(double dt, const GroundAcceleration& ground, const ContactLaw& law)
+/// As ContactStepper: the same joint, seen from another dam.
+ContactReport ReducedContact::solve_laws(Step& step, const ContactLaw& law)
+{
+    const ContactMemory& memory = state_.contact;
+    if (!step.with_laws) step.with_laws = law_solver(step.contact->shared_stiffness(), memory.laws, options_);
+    const StepConstants& c = step.shared->constants();
+    const Index m = plane_.pairs();
+    laws_ = memory.laws;
+    const JointStart start{c.dt,          memory.opening, memory.slip,
+                           memory.states, c.a1,           -c.a4 * state_.gap_v.tail(m) - c.a5 * state_.gap_a.tail(m)};
+    return laws_.solve(*step.with_laws, stuck_, start, law, solution_);
+}
+
+ContactReport ReducedContact::advance(double dt, const GroundAcceleration& ground, const ContactLaw& law, int cuts)
 {
     Step& step = step_of(dt);
     const ReducedOperator& op = *step.shared;
     const StepConstants& c = op.constants();
     const Index m = plane_.pairs();
     ContactMemory& memory = state_.contact;
-    force_before_ = memory.force;
+    memory.contact_force(force_before_);
     slip_before_ = memory.slip;
     states_before_ = memory.states;
     right_hand_side(c, ground);
@@ -424,8 +437,16 @@ ContactReport ReducedContact::advance(double dt, const GroundAcceleration& groun
     solution_.states = memory.states;
     solution_.force = memory.force;
     elastic_ = memory.elastic;
-    const ContactReport report = step.contact->solve(stuck_, law, memory.elastic, solution_);
+    const bool laws = memory.laws.active();
+    const ContactReport report = laws ? solve_laws(step, law) : step.contact->solve(stuck_, law, memory.elastic, solution_);
     counts_.contact_seconds += before.seconds();
+    if (laws && !report.resolved() && cuts < most_cuts(memory.laws)) {
+        ++counts_.halved;
+        const ContactReport first = advance(0.5 * dt, middle_of(state_.ground, ground, dt), law, cuts + 1);
+        ContactReport second = advance(0.5 * dt, ground, law, cuts + 1);
+        second.path = std::max(first.path, second.path);
+        return second;
+    }
 
     gap_step_ = solution_.displacement;
     gap_step_.head(m) -= memory.opening;
@@ -449,10 +470,15 @@ ContactReport ReducedContact::advance(double dt, const GroundAcceleration& groun
     memory.states = solution_.states;
     memory.opening = solution_.displacement.head(m);
     memory.slip += solution_.displacement.tail(m);
+    if (laws) {
+        laws_.end();
+        std::swap(memory.laws, laws_);
+    }
     state_.time += dt;
     state_.ground = ground;
     land(step, law);
-    friction_ -= 0.5 * (force_before_.tail(m) + memory.force.tail(m)).dot(memory.slip - slip_before_);
+    memory.contact_force(force_after_);
+    friction_ -= 0.5 * (force_before_.tail(m) + force_after_.tail(m)).dot(memory.slip - slip_before_);
 
     counts_.contact_iterations += report.iterations;
     counts_.add(report, report.residual * stuck_.cwiseAbs().maxCoeff() / normal_force_);
@@ -515,7 +541,7 @@ const ReducedRun::Estimators& ReducedRun::estimators() const
         if (model_->system().modes.complete) return;
         DamModes reference = dam_modes(full_.structure(), reference_modes(wanted_));
         if (!reference.regular) return;
-        if (water_) {
+        if (on_plane_itself()) {
             estimators_.reference = std::make_unique<const ReducedModel>(
                 model_->plane(), system_of(std::move(reference)), scheme_of(scene_.time));
             return;
@@ -539,7 +565,7 @@ std::optional<double> ReducedRun::truncation_error(const Motion& motion, const S
     if (!systems.reference) return std::numeric_limits<double>::quiet_NaN(); // the modes beyond did not converge
     const double modes = static_cast<double>(model_->system().dam_modes - 3);
     const double more = static_cast<double>(systems.reference->system().dam_modes - 3);
-    if (water_) {
+    if (on_plane_itself()) {
         Motion coarsest = motion;
         coarsest.parts = 1 << motion.halvings.value_or(0);
         Strength strength(start.contact, model_->plane());

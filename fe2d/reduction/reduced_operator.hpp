@@ -191,8 +191,9 @@ public:
     ReducedContact(const ReducedModel& model, const ContactMemory& rest, const Contact& joint = {},
                    const ContactOptions& options = {});
 
-    /// One step to the given ground acceleration, as DynamicContact::advance.
-    ContactReport advance(double dt, const GroundAcceleration& ground, const ContactLaw& law);
+    /// One step to the given ground acceleration, as DynamicContact::advance. With laws of the joint it is made in halves where its
+    /// contact is not resolved.
+    ContactReport advance(double dt, const GroundAcceleration& ground, const ContactLaw& law, int cuts = 0);
 
     const ReducedState& state() const { return state_; }
     const DynamicCounts& counts() const { return counts_; }
@@ -206,8 +207,10 @@ private:
     struct Step {
         const ReducedOperator* shared;
         std::unique_ptr<JointSolver> contact;
+        std::unique_ptr<JointLawSolver> with_laws = {}; ///< null: none needed so far
     };
     Step& step_of(double dt);
+    ContactReport solve_laws(Step& step, const ContactLaw& law);
     void change_by(const Step& step);
     void land(Step& step, const ContactLaw& law);
     void right_hand_side(const StepConstants& constants, const GroundAcceleration& ground);
@@ -227,9 +230,10 @@ private:
     // Work space.
     Eigen::VectorXd load_, massless_, known_, stuck_, modal_step_, massless_step_, gap_step_, rates_, inertia_, strain_, elastic_;
     Eigen::VectorXd no_force_;                   ///< zeros
-    Eigen::VectorXd force_before_, slip_before_; ///< of the step
+    Eigen::VectorXd force_before_, force_after_, slip_before_; ///< of the step: λ_c and slip
     ContactStates states_before_;
     ContactSolution solution_, jumps_;
+    JointLaws laws_; ///< of the step; those of the state change when it is made
     ReducedOperator::Work work_, no_load_work_;
 };
 

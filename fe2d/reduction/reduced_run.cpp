@@ -2,8 +2,12 @@
 
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
+#include "fe2d/contact/anchor_law.hpp"
+#include "fe2d/contact/bond_law.hpp"
+#include "fe2d/contact/joint_water.hpp"
 #include "fe2d/run/run_watches.hpp"
 #include "fe2d/run/earthquake_pass.hpp"
+#include "scene/joint_bond.hpp"
 #include "scene/section.hpp"
 
 #include <fmt/format.h>
@@ -95,6 +99,11 @@ std::vector<Note> ReducedRun::obstacle() const
     return {};
 }
 
+bool ReducedRun::on_plane_itself() const
+{
+    return water_ || !first_joint_law(scene_).empty();
+}
+
 double ReducedRun::wanted(const RunResult& run) const
 {
     return allowed_error(scene_, options_, run.slip, run.max_slip);
@@ -127,7 +136,7 @@ ReducedRun::Start ReducedRun::stand(StaticContact& statics, const Contact& conta
 {
     const Stopwatch clock;
     const Plane& plane = full_.structure().plane();
-    Start start{contact, Strength(contact, plane), ContactMemory(plane.pairs()), {}};
+    Start start{contact, Strength(contact, plane), full_.unloaded(contact), {}};
     result.stages = full_.statics(statics, start.strength, start.rest);
     start.balance = result.stages.back();
     if (start.balance.status != StageStatus::ok) {
@@ -176,13 +185,15 @@ ReducedState ReducedRun::refine(Motion& motion, Strength& strength, const Start&
     ReducedState end = shake_with(first, motion, start, strength, result);
     first_slips = result.history.slip;
     std::vector<SlipAtStep> slips{{first, result.slip, 0.0}};
+    const JointLaws& laws = start.rest.laws;
+    const bool sudden = laws.find<BondLaw>() || laws.find<CrackWater>() || !strength.constant();
     for (int k = first + 1; !motion.halvings && k <= options_.largest_halvings; ++k) {
         const std::vector<double> coarser = result.history.slip;
         const bool was_self_excited = result.status == Status::self_excited;
         end = shake_with(k, motion, start, strength, result);
         if (k <= 0) first_slips = result.history.slip;
         slips.push_back({k, result.slip, largest_difference(coarser, result.history.slip)});
-        result.slip_error = step_error(slips, strength.constant() ? contact_order : sudden_order);
+        result.slip_error = step_error(slips, sudden ? sudden_order : contact_order);
         if (k <= 0 && result.status != Status::at_rest) continue; // two passes that coarse tell of a slip that is final alone
         if (result.slip_error <= wanted(result)) break;
         if (was_self_excited && result.status == Status::self_excited) break; // both agree; there is no slip to refine
@@ -234,7 +245,19 @@ RunResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contac
     const auto load = [&](const PressureProfile& uplift) {
         return structure.split(load_with(stages_, full_.model(), uplift));
     };
-    result.after = stage_after(statics, structure, options_.uplift_after, strength.opened(), load, strength, end);
+    CrackLengths crack = strength.opened();
+    bool drains_lost = false;
+    end.laws = moved.contact.laws;
+    if (auto* bond = end.laws.find<BondLaw>()) bond->set_motion(false);
+    if (const auto* anchors = end.laws.find<AnchorLaw>()) result.anchors = anchors->outcomes();
+    if (const auto* water = end.laws.find<CrackWater>()) {
+        result.base_water = water->report();
+        drains_lost = water->report().drains_lost;
+        if (options_.cracked_uplift_after) crack = result.base_water->largest;
+    }
+    const SplitLoad before = load({});
+    result.after = stage_after(statics, structure, drains_lost ? options_.drain_loss->uplift_after : options_.uplift_after, crack,
+                               load, strength, end, end.laws.active() ? &before : nullptr);
     result.seconds.statics += clock.seconds();
 
     if (result.status != Status::interrupted && result.counts.unresolved > 0) result.status = Status::not_resolved;
@@ -258,8 +281,9 @@ void record(const ReducedContact& dynamics, const GroundAcceleration& ground, Ru
     history.ground_v.push_back(ground.v);
     history.slip.push_back(dynamics.mean_slip());
     history.crest_x.push_back(dynamics.crest());
-    history.normal_force.push_back(contact.force.head(m).sum());
-    history.shear_force.push_back(-contact.force.tail(m).sum());
+    const VectorXd force = contact.contact_force();
+    history.normal_force.push_back(force.head(m).sum());
+    history.shear_force.push_back(-force.tail(m).sum());
 }
 
 void reserve(RunHistory& history, std::size_t rows)
@@ -280,7 +304,9 @@ ReducedState ReducedRun::shake(const Motion& motion, const ReducedModel& model, 
     const double dt = motion.dt;
     const int parts = motion.parts;
     const GroundInput& ground = motion.ground;
-    ReducedContact dynamics(model, rest, scene_.contact, motion.contact);
+    ContactMemory at_rest = rest;
+    if (auto* bond = at_rest.laws.find<BondLaw>()) bond->set_motion(true);
+    ReducedContact dynamics(model, at_rest, scene_.contact, motion.contact);
     std::optional<SlideProbe> probe;
     std::optional<SlideWatch> watch;
     const auto look = [&] {

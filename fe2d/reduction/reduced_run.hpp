@@ -75,6 +75,7 @@ private:
     ReducedSystem system_of(DamModes modes) const;
     double highest_frequency() const; ///< ω up to which pressures are to be right [rad/s]
     std::vector<Note> obstacle() const; ///< of the scene; empty: none
+    bool on_plane_itself() const; ///< is the truncation error found there? Attachment modes and laws of joints are lost on a coarse one
     const Estimators& estimators() const;
     Motion motion_of(const GroundMotion& motion, const std::optional<int>& halvings) const;
     /// The static stages, into `result`.

@@ -1,7 +1,6 @@
 #include "fe2d/run/contact_stepper.hpp"
 
 #include "core/parallel.hpp"
-#include "fe2d/contact/bond_law.hpp"
 #include "fe2d/run/step_passes.hpp"
 #include "fe2d/solver/dense_product.hpp"
 
@@ -86,14 +85,9 @@ ContactReport ContactStepper::solve(const ContactLaw& law, const StepState& stat
 ContactReport ContactStepper::solve_laws(const ContactLaw& law, const StepState& state)
 {
     PairProblem& problem = problems_[op_];
-    if (!problem.with_laws) {
-        ContactOptions options = options_;
-        // A bond that breaks in the step: shorter ones are cheaper than the slow methods, and their answer is the only one.
-        if (state.contact.laws.find<BondLaw>()) options.gauss_seidel_sweeps = 0;
-        problem.with_laws = std::make_unique<JointLawSolver>(problem.solver->shared_stiffness(), options);
-    }
-    const StepConstants& c = op_->constants();
     const ContactMemory& memory = state.contact;
+    if (!problem.with_laws) problem.with_laws = law_solver(problem.solver->shared_stiffness(), memory.laws, options_);
+    const StepConstants& c = op_->constants();
     laws_ = memory.laws;
     JointStart start{c.dt,          memory.opening, memory.slip,
                      memory.states, c.a1,           -c.a4 * state.rate_t - c.a5 * state.accel_t};

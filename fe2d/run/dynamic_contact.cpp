@@ -24,7 +24,8 @@ StepState at_rest(const ContactStructure& structure, const StaticState& start, c
     return state;
 }
 
-/// Half-way: velocities by the trapezoid, displacements by velocities, for the acceleration is linear.
+} // namespace
+
 GroundAcceleration middle_of(const GroundAcceleration& from, const GroundAcceleration& to, double dt)
 {
     GroundAcceleration middle;
@@ -39,7 +40,12 @@ GroundAcceleration middle_of(const GroundAcceleration& from, const GroundAcceler
     return middle;
 }
 
-} // namespace
+int most_cuts(const JointLaws& laws)
+{
+    // A line that cracks all at once has one answer in steps below about ℓ_ch over the speed of waves, some 0.1 ms.
+    constexpr int of_bond = 8;
+    return laws.find<BondLaw>() ? of_bond : largest_cuts;
+}
 
 DynamicContact::DynamicContact(const ContactStructure& structure, const RunDamping& damping, const Scheme& scheme,
                                const SplitLoad& load, const StaticState& start, const ContactMemory& memory,
@@ -192,11 +198,8 @@ int StepCuts::expected() const
 bool StepCuts::after_contact(const ContactReport& report, int cuts, ContactStepper& step, const StepState& state,
                              DynamicCounts& counts) const
 {
-    // A line that cracks all at once has one answer in steps below about ℓ_ch over the speed of waves, some 0.1 ms.
-    constexpr int largest_cuts_of_bond = 8;
     const int more = control_ ? control_->largest_cuts : 0;
-    const int most = state.contact.laws.find<BondLaw>() ? largest_cuts_of_bond : largest_cuts;
-    if (!report.resolved() && cuts < most + more) {
+    if (!report.resolved() && cuts < most_cuts(state.contact.laws) + more) {
         ++counts.halved;
         return true;
     }

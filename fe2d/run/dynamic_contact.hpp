@@ -13,6 +13,10 @@ namespace damslip::fe2d {
 /// When a step's contact is not resolved, nothing of it is kept and it is made in two halves, these in halves again,
 /// down to this share of it.
 inline constexpr int largest_cuts = 4; ///< dt / 2^4
+int most_cuts(const JointLaws& laws);  ///< the same with these laws: bonds need more
+
+/// The ground half-way through a step: velocities by the trapezoid, displacements by velocities, for the acceleration is linear.
+GroundAcceleration middle_of(const GroundAcceleration& from, const GroundAcceleration& to, double dt);
 
 /// Error control of the steps: a step is made in halves, these in halves again, while its local error is larger than
 /// wanted.

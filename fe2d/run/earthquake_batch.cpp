@@ -59,15 +59,20 @@ EarthquakeRun::BatchedRun EarthquakeRun::batched_run(const Contact& contact) con
         std::fill_n(segments.begin(), scene_.seam_body->of_seam, contact);
     }
     BatchedRun batched{Strength(contact, joints_of(scene_), structure_->planes(), segments),
-                       ContactMemory(structure_->pairs())};
-    batched.memory.laws = joint_laws(scene_, contact, structure_->planes());
-    if (auto water = base_water(scene_, structure_->plane(), options_.uplift, options_.cracked_uplift,
-                                options_.drain_loss))
-        batched.memory.laws.add(std::move(water));
+                       unloaded(contact)};
     batched.contact = contact;
     batched.load = stages_.last();
     batched.uplift = options_.uplift;
     return batched;
+}
+
+ContactMemory EarthquakeRun::unloaded(const Contact& contact) const
+{
+    ContactMemory memory(structure_->pairs());
+    memory.laws = joint_laws(scene_, contact, structure_->planes());
+    if (auto water = base_water(scene_, structure_->plane(), options_.uplift, options_.cracked_uplift, options_.drain_loss))
+        memory.laws.add(std::move(water));
+    return memory;
 }
 
 /// What rests on the dam while it shakes.

@@ -219,6 +219,8 @@ public:
 
     /// The stages before the earthquake alone; `memory` ends in the last state of equilibrium.
     std::vector<StageResult> statics(StaticContact& statics, Strength& strength, ContactMemory& memory) const;
+    /// Joints that nothing has loaded yet, with the laws of the scene. @param contact  strength of the base
+    ContactMemory unloaded(const Contact& contact) const;
 
 private:
     struct BatchedRun;

@@ -76,9 +76,10 @@ std::optional<Diagnostic> why_not_reducible(const Scene& scene)
         return not_with("contact.normal = \"exponential\"",
                         "contact.normal = \"hard\", the reduced base has no springs across it",
                         "write  normal = \"hard\"  in [contact]");
-    if (const std::string law = first_joint_law(scene); !law.empty())
-        return not_with(law, "contact by friction and cohesion alone, the reduced base has no other laws",
-                        "leave it out");
+    if (scene.uplift && scene.uplift->water.opening == OpeningWater::reynolds &&
+        scene.uplift->water.wet_end == WetEndPressure::with_waves)
+        return not_with("uplift.wet_end = \"with-waves\"", "the static head at the wet end, a reduced run has no pressure there",
+                        "delete wet_end in [uplift]");
     return std::nullopt;
 }
 
@@ -90,7 +91,8 @@ void check_reducible(const Scene& scene)
 void set_corrector(const Scene& scene, fe2d::RunOptions& options)
 {
     const bool corrects = scene.time.stepping == Stepping::automatic && !scene.time.substeps && !with_exact_contact(scene) &&
-                          scene.tied_lifts.empty() && scene.dam.crack != BodyCrack::traced && !why_not_reducible(scene);
+                          scene.tied_lifts.empty() && scene.dam.crack != BodyCrack::traced && first_joint_law(scene).empty() &&
+                          !why_not_reducible(scene);
     options.corrector = corrects ? fe2d::corrected_run : decltype(options.corrector)();
 }
 
