@@ -419,8 +419,17 @@ ContactReport ReducedContact::solve_laws(Step& step, const ContactLaw& law)
     return laws_.solve(*step.with_laws, stuck_, start, law, solution_);
 }
 
+ContactReport ReducedContact::in_halves(double dt, const GroundAcceleration& ground, const ContactLaw& law, int cuts)
+{
+    const ContactReport first = advance(0.5 * dt, middle_of(state_.ground, ground, dt), law, cuts + 1);
+    ContactReport second = advance(0.5 * dt, ground, law, cuts + 1);
+    second.path = std::max(first.path, second.path);
+    return second;
+}
+
 ContactReport ReducedContact::advance(double dt, const GroundAcceleration& ground, const ContactLaw& law, int cuts)
 {
+    if (passes_over(cuts, state_.contact.laws)) return in_halves(dt, ground, law, cuts);
     Step& step = step_of(dt);
     const ReducedOperator& op = *step.shared;
     const StepConstants& c = op.constants();
@@ -442,10 +451,7 @@ ContactReport ReducedContact::advance(double dt, const GroundAcceleration& groun
     counts_.contact_seconds += before.seconds();
     if (laws && !report.resolved() && cuts < most_cuts(memory.laws)) {
         ++counts_.halved;
-        const ContactReport first = advance(0.5 * dt, middle_of(state_.ground, ground, dt), law, cuts + 1);
-        ContactReport second = advance(0.5 * dt, ground, law, cuts + 1);
-        second.path = std::max(first.path, second.path);
-        return second;
+        return in_halves(dt, ground, law, cuts);
     }
 
     gap_step_ = solution_.displacement;

@@ -211,6 +211,7 @@ private:
     };
     Step& step_of(double dt);
     ContactReport solve_laws(Step& step, const ContactLaw& law);
+    ContactReport in_halves(double dt, const GroundAcceleration& ground, const ContactLaw& law, int cuts);
     void change_by(const Step& step);
     void land(Step& step, const ContactLaw& law);
     void right_hand_side(const StepConstants& constants, const GroundAcceleration& ground);

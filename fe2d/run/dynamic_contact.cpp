@@ -40,6 +40,11 @@ GroundAcceleration middle_of(const GroundAcceleration& from, const GroundAcceler
     return middle;
 }
 
+bool passes_over(int cuts, const JointLaws& laws)
+{
+    return cuts % 2 == 1 && laws.find<BondLaw>();
+}
+
 int most_cuts(const JointLaws& laws)
 {
     // A line that cracks all at once has one answer in steps below about ℓ_ch over the speed of waves, some 0.1 ms.
@@ -124,8 +129,7 @@ ContactReport DynamicContact::in_halves(double dt, const GroundAcceleration& gro
 
 ContactReport DynamicContact::step(double dt, const GroundAcceleration& ground, const ContactLaw& law, int cuts)
 {
-    // Of bonds every other length is tried: each has matrices of its own.
-    const bool passed_over = cuts % 2 == 1 && cuts_.expected() == 0 && state_.contact.laws.find<BondLaw>();
+    const bool passed_over = cuts_.expected() == 0 && passes_over(cuts, state_.contact.laws);
     if (cuts < cuts_.expected() || passed_over) return in_halves(dt, ground, law, cuts);
     begin(dt, ground);
     const InterfaceFactor& factor = stepper_.op().factor();

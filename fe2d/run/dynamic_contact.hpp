@@ -14,6 +14,7 @@ namespace damslip::fe2d {
 /// down to this share of it.
 inline constexpr int largest_cuts = 4; ///< dt / 2^4
 int most_cuts(const JointLaws& laws);  ///< the same with these laws: bonds need more
+bool passes_over(int cuts, const JointLaws& laws); ///< of bonds every other length is tried: each has matrices of its own
 
 /// The ground half-way through a step: velocities by the trapezoid, displacements by velocities, for the acceleration is linear.
 GroundAcceleration middle_of(const GroundAcceleration& from, const GroundAcceleration& to, double dt);

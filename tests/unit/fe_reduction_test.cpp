@@ -78,6 +78,18 @@ TEST(FeReduction, all_modes_are_the_full_run_with_penalty_and_substeps)
     expect_full_run(scene, options);
 }
 
+// Friction falls with the rate, at once and with a lag.
+TEST(FeReduction, all_modes_are_the_full_run_with_friction_over_the_rate)
+{
+    Scene scene = small_dam(0.75);
+    RunOptions options = options_of(scene);
+    scene.time.substeps = 1;
+    for (const std::optional<double> lag : {std::optional<double>(), std::optional<double>(0.1)}) {
+        scene.contact.rate = {0.9, 0.05, lag, {}};
+        expect_full_run(scene, options);
+    }
+}
+
 // Without rock nothing is soft beside the modes: F_s = 0, and is never inverted. Weaker motion, because an undamped
 // rigid base makes the dam bounce above 1 m/s²: then a change of 1e-13 of the motion changes the full run's slip by 1 %.
 TEST(FeReduction, all_modes_are_the_full_run_on_a_rigid_base)

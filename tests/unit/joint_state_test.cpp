@@ -3,6 +3,8 @@
 #include "analysis/prepare/ready.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
+#include "fe2d/reduction/reduced_run.hpp"
+#include "fe2d/run/earthquake_pass.hpp"
 #include "pages/fe/fe_pages.hpp"
 #include "records/transform/transform.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
@@ -103,6 +105,30 @@ void expect_same_bits(const fe2d::RunState& a, const fe2d::RunState& b)
 }
 
 class JointState : public testing::TestWithParam<Law> {};
+
+// With all modes nothing is left out, and the laws of the joint are those of the full run: the same up to round-off.
+TEST_P(JointState, AllModesAreTheFullRun)
+{
+    const Scene scene = dam_with(GetParam());
+    const Watch nobody;
+    const Ready ready = prepare(scene, Method::finite_elements, nullptr);
+    const fe2d::RunOptions options = ready.run_options(nobody);
+    const fe2d::EarthquakeRun full(ready.scene, options);
+    const GroundMotion motion = record_of(2.5, 5);
+    const fe2d::RunResult expected = full.run(motion),
+                          result = fe2d::ReducedRun(full, ready.scene, options, 100000).run(motion);
+    ASSERT_GT(std::abs(expected.slip), 1e-4);
+    EXPECT_EQ(result.status, expected.status);
+    EXPECT_EQ(result.counts.unresolved, expected.counts.unresolved);
+    EXPECT_LT(fe2d::largest_difference(result.history.slip, expected.history.slip), 1e-6 * std::abs(expected.slip));
+    const double force = expected.history.normal_force[0];
+    EXPECT_LT(fe2d::largest_difference(result.history.normal_force, expected.history.normal_force), 1e-5 * force);
+    EXPECT_NEAR(result.after.open_length, expected.after.open_length, 1e-6);
+    ASSERT_EQ(result.anchors.size(), expected.anchors.size());
+    for (std::size_t i = 0; i < result.anchors.size(); ++i)
+        EXPECT_NEAR(result.anchors[i].largest_force, expected.anchors[i].largest_force, 1e-6 * expected.anchors[i].largest_force);
+    ASSERT_EQ(result.base_water.has_value(), expected.base_water.has_value());
+}
 
 TEST_P(JointState, FileKeepsEveryBit)
 {
