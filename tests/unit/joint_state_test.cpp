@@ -126,7 +126,8 @@ TEST_P(JointState, AllModesAreTheFullRun)
     EXPECT_NEAR(result.after.open_length, expected.after.open_length, 1e-6);
     ASSERT_EQ(result.anchors.size(), expected.anchors.size());
     for (std::size_t i = 0; i < result.anchors.size(); ++i)
-        EXPECT_NEAR(result.anchors[i].largest_force, expected.anchors[i].largest_force, 1e-6 * expected.anchors[i].largest_force);
+        EXPECT_NEAR(result.anchors[i].history.largest_force, expected.anchors[i].history.largest_force,
+                    1e-6 * expected.anchors[i].history.largest_force);
     ASSERT_EQ(result.base_water.has_value(), expected.base_water.has_value());
 }
 
