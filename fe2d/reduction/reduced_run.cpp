@@ -252,7 +252,7 @@ RunResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contac
     if (const auto* anchors = end.laws.find<AnchorLaw>()) result.anchors = anchors->outcomes();
     if (const auto* water = end.laws.find<CrackWater>()) {
         result.base_water = water->report();
-        drains_lost = water->report().drains_lost;
+        drains_lost = water->report().drains_lost.has_value();
         if (options_.cracked_uplift_after) crack = result.base_water->largest;
     }
     const SplitLoad before = load({});
@@ -304,9 +304,9 @@ ReducedState ReducedRun::shake(const Motion& motion, const ReducedModel& model, 
     const double dt = motion.dt;
     const int parts = motion.parts;
     const GroundInput& ground = motion.ground;
-    ContactMemory at_rest = rest;
-    if (auto* bond = at_rest.laws.find<BondLaw>()) bond->set_motion(true);
-    ReducedContact dynamics(model, at_rest, scene_.contact, motion.contact);
+    ContactMemory still = rest;
+    if (auto* bond = still.laws.find<BondLaw>()) bond->set_motion(true);
+    ReducedContact dynamics(model, still, scene_.contact, motion.contact);
     std::optional<SlideProbe> probe;
     std::optional<SlideWatch> watch;
     const auto look = [&] {
