@@ -106,6 +106,24 @@ TEST_F(ElasticScreening, SaysWhatItCannotRun)
     EXPECT_EQ(lifts["elastic"], json::array());
     EXPECT_NE(lifts["elastic_not_run"].get<std::string>().find("[[lift_joint]]"), std::string::npos);
     EXPECT_EQ(lifts["verdict"].get<std::string>().find("PASS"), std::string::npos) << lifts["verdict"];
+    std::string text = read_file(dam(50.0));
+    const std::string uplift = "uplift     = { model = \"linear\"";
+    ASSERT_NE(text.find(uplift), std::string::npos);
+    text.insert(text.find(uplift) + uplift.size(), ", opening = \"reynolds\", wet_end = \"with-waves\"");
+    write_file(folder / "dam.toml", text);
+    const json waves = screened({(folder / "dam.toml").string()});
+    EXPECT_NE(waves["elastic_not_run"].get<std::string>().find("with-waves"), std::string::npos) << waves;
+}
+
+/// Bars that hold the dam back hold it on few modes, too.
+TEST_F(ElasticScreening, HasTheLawsOfTheJoint)
+{
+    const std::string bars = "[[anchor]]\nname = \"bars\"\ndistance_m = 4\ninclination_deg = 30\nfree_length_m = 10\n"
+                             "area_m2_m = 0.004\nyield_strength_MPa = 500\n";
+    const json with = screened({dam(50.0, bars)})["elastic"], without = screened({dam(50.0)})["elastic"];
+    ASSERT_EQ(with.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i)
+        EXPECT_LT(with[i]["slip_mm"].get<double>(), 0.8 * without[i]["slip_mm"].get<double>());
 }
 
 } // namespace
