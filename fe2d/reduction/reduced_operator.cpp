@@ -564,7 +564,7 @@ const ReducedRun::Estimators& ReducedRun::estimators() const
 }
 
 std::optional<double> ReducedRun::truncation_error(const Motion& motion, const Start& start,
-                                                   const std::vector<double>& first) const
+                                                   const FirstPass& first) const
 {
     if (model_->system().modes.complete) return 0.0;
     const Estimators& systems = estimators();
@@ -579,7 +579,7 @@ std::optional<double> ReducedRun::truncation_error(const Motion& motion, const S
         RunResult result;
         shake(coarsest, *systems.reference, strength, start.rest, nullptr, result);
         if (result.status == Status::interrupted) return std::nullopt;
-        const double to_more = largest_difference(first, result.history.slip);
+        const double to_more = largest_difference(first.slip, first.rows, result.history.slip, event_rows(result));
         return systems.reference->system().modes.complete ? to_more : to_more / (1.0 - modes / more);
     }
     const ContactMemory memory = coarse_.shut(start.rest);

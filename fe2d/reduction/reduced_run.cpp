@@ -101,7 +101,7 @@ std::vector<Note> ReducedRun::obstacle() const
 
 bool ReducedRun::on_plane_itself() const
 {
-    return water_ || !first_joint_law(scene_).empty();
+    return water_ || !first_joint_law(scene_).empty() || !scene_.motion.sequence.empty();
 }
 
 double ReducedRun::wanted(const RunResult& run) const
@@ -111,7 +111,7 @@ double ReducedRun::wanted(const RunResult& run) const
 
 ReducedRun::Motion ReducedRun::motion_of(const GroundMotion& motion, const std::optional<int>& halvings) const
 {
-    return {GroundInput(motion, scene_.damping.mass, full_.damping().mass), scene_.time.dt.value_or(motion.dt), 1, options_.contact,
+    return {PlayedGround(motion, scene_.damping.mass, full_.damping().mass), scene_.time.dt.value_or(motion.dt), 1, options_.contact,
             halvings};
 }
 
@@ -179,20 +179,21 @@ std::vector<RunResult> ReducedRun::passes(const Shaking& shaking, const Enough& 
 }
 
 ReducedState ReducedRun::refine(Motion& motion, Strength& strength, const Start& start, RunResult& result,
-                                std::vector<double>& first_slips) const
+                                FirstPass& coarsest) const
 {
     const int first = motion.halvings.value_or(options_.slip_limits.empty() ? 0 : most_doublings);
     ReducedState end = shake_with(first, motion, start, strength, result);
-    first_slips = result.history.slip;
+    coarsest = {result.history.slip, event_rows(result)};
     std::vector<SlipAtStep> slips{{first, result.slip, 0.0}};
     const JointLaws& laws = start.rest.laws;
     const bool sudden = laws.find<BondLaw>() || laws.find<CrackWater>() || !strength.constant();
     for (int k = first + 1; !motion.halvings && k <= options_.largest_halvings; ++k) {
         const std::vector<double> coarser = result.history.slip;
+        const std::vector<std::size_t> rows_before = event_rows(result);
         const bool was_self_excited = result.status == Status::self_excited;
         end = shake_with(k, motion, start, strength, result);
-        if (k <= 0) first_slips = result.history.slip;
-        slips.push_back({k, result.slip, largest_difference(coarser, result.history.slip)});
+        if (k <= 0) coarsest = {result.history.slip, event_rows(result)};
+        slips.push_back({k, result.slip, largest_difference(coarser, rows_before, result.history.slip, event_rows(result))});
         result.slip_error = step_error(slips, sudden ? sudden_order : contact_order);
         if (k <= 0 && result.status != Status::at_rest) continue; // two passes that coarse tell of a slip that is final alone
         if (result.slip_error <= wanted(result)) break;
@@ -222,7 +223,7 @@ RunResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contac
     Stopwatch clock;
     Motion loop = motion_of(motion, halvings ? halvings : scene_.time.substeps);
     Strength strength = start.strength;
-    std::vector<double> first;
+    FirstPass first;
     const ReducedState moved = refine(loop, strength, start, result, first);
     result.pair_opening = moved.contact.opening;
     const bool over = result.status == Status::at_rest || result.status == Status::sliding_at_end;
@@ -265,6 +266,8 @@ RunResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contac
         result.notes = self_excited_notes(scene_, result.slip, result.run_out);
     else
         result.notes = {ending_of(result, length, scene_.time.slip_tolerance)};
+    if (const std::string event = judge_events(result.status, length, result.events); !event.empty())
+        result.notes.insert(result.notes.begin(), {NoteKind::in_record, {event}});
     return result;
 }
 
@@ -303,7 +306,7 @@ ReducedState ReducedRun::shake(const Motion& motion, const ReducedModel& model, 
 {
     const double dt = motion.dt;
     const int parts = motion.parts;
-    const GroundInput& ground = motion.ground;
+    PlayedGround ground = motion.ground;
     ContactMemory still = rest;
     if (auto* bond = still.laws.find<BondLaw>()) bond->set_motion(true);
     ReducedContact dynamics(model, still, scene_.contact, motion.contact);
@@ -317,15 +320,20 @@ ReducedState ReducedRun::shake(const Motion& motion, const ReducedModel& model, 
         record(dynamics, ground.at(dynamics.state().time), result.history);
         if (watch) watch->add_row(result.history.slide);
     };
-    const auto record_steps = static_cast<long>(std::ceil(ground.duration() / dt - 1e-9));
-    const auto all_steps = record_steps + static_cast<long>(std::ceil(scene_.sliding.run_out_max / dt - 1e-9));
     const double rest_time = options_.rest_time.value_or(full_.rest_time());
-    const auto rest_steps = static_cast<long>(std::ceil(rest_time / dt - 1e-9));
+    const PassSteps steps{dt, parts, scene_.sliding.run_out_max, rest_time};
+    const long rest_steps = steps.rows(rest_time), shown_steps = steps.rows(ground.samples_end());
+    long record_steps = steps.rows(ground.end()), all_steps = record_steps + steps.rows(steps.run_out), at_rest_since = -1;
     result.history = {};
     reserve(result.history, static_cast<std::size_t>(record_steps + rest_steps) + 1);
+    result.events.clear();
+    const auto begin_event = [&] {
+        if (const MotionEvent* event = ground.event()) result.events.push_back({event->name, ground.start(), ground.end(), 0.0, 0.0});
+    };
+    begin_event();
     if (balance) {
         probe.emplace(full_.structure().planes(), *balance, rest.slip);
-        watch.emplace(SlideLimits{ground.duration(), probe->static_normal_force(), scene_.sliding.steady_rate_change},
+        watch.emplace(SlideLimits{ground.end(), probe->static_normal_force(), scene_.sliding.steady_rate_change},
                       [this] { return full_.window(); });
         look();
     }
@@ -335,15 +343,14 @@ ReducedState ReducedRun::shake(const Motion& motion, const ReducedModel& model, 
     result.status = Status::sliding_at_end;
     for (long n = 0; n < all_steps; ++n) {
         for (int part = 1; part <= parts; ++part) {
-            const double time = (static_cast<double>(n) + static_cast<double>(part) / parts) * dt;
-            dynamics.advance(dt / parts, ground.at(time), strength.law());
+            dynamics.advance(dt / parts, ground.at(steps.time(n, part)), strength.law());
             strength.follow(dynamics.state().contact);
             if (watch) look();
             result.max_slip = std::max(result.max_slip, std::abs(dynamics.mean_slip()));
         }
         add_row();
         if (options_.progress &&
-            options_.progress({dynamics.state().time, ground.duration(), n + 1, record_steps}) == RunAnswer::stop) {
+            options_.progress({dynamics.state().time, ground.samples_end(), n + 1, shown_steps}) == RunAnswer::stop) {
             result.status = Status::interrupted;
             break;
         }
@@ -353,8 +360,21 @@ ReducedState ReducedRun::shake(const Motion& motion, const ReducedModel& model, 
             break;
         }
         if (n + 1 >= record_steps + rest_steps && at_rest(result.history.time, result.history.slip, rest_time)) {
-            result.status = Status::at_rest;
-            break;
+            if (!ground.more()) {
+                result.status = Status::at_rest;
+                break;
+            }
+            // As EarthquakePass::rest(): the next record after the pause.
+            if (at_rest_since < 0) at_rest_since = n + 1;
+            if (n + 1 >= at_rest_since + steps.rows(ground.pause())) {
+                result.events.back().slip = result.history.slip.back();
+                ground.next(static_cast<double>(n + 1) * dt);
+                begin_event();
+                if (watch) watch->next_record(ground.end());
+                record_steps = steps.rows(ground.end());
+                all_steps = record_steps + steps.rows(steps.run_out);
+                at_rest_since = -1;
+            }
         }
         if (watch && watch->self_excited()) {
             result.status = Status::self_excited;
@@ -362,7 +382,9 @@ ReducedState ReducedRun::shake(const Motion& motion, const ReducedModel& model, 
         }
     }
     if (watch) result.run_out = watch->figures();
+    result.events_left = ground.left();
     result.slip = result.history.slip.back();
+    end_events(result);
     result.end_time = dynamics.state().time;
     result.counts = dynamics.counts();
     result.seconds.contact += result.counts.contact_seconds;

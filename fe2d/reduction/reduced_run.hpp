@@ -55,7 +55,7 @@ public:
 private:
     /// What the time loop reads of a motion.
     struct Motion {
-        GroundInput ground;
+        PlayedGround ground; ///< from its start; each pass plays it anew
         double dt = 0.0; ///< of the rows of the history [s]
         int parts = 1;   ///< steps in each
         ContactOptions contact;
@@ -71,6 +71,11 @@ private:
     /// Systems on a coarse plane, with acoustic water the reference alone, on the plane itself; none where all modes are kept.
     struct Estimators {
         std::unique_ptr<const ReducedModel> kept, fewer, reference;
+    };
+    /// What the truncation error is measured against: slips of the run's first pass, and the rows in which its events begin.
+    struct FirstPass {
+        std::vector<double> slip;
+        std::vector<std::size_t> rows;
     };
     ReducedSystem system_of(DamModes modes) const;
     double highest_frequency() const; ///< ω up to which pressures are to be right [rad/s]
@@ -90,14 +95,13 @@ private:
                        const StageResult* balance, RunResult& result) const;
     /// Passes with halved steps until the slip holds still, or the one pass that is asked for. Where only the side of limits is asked
     /// for the first one has four times the step: for most slips two coarse passes tell it.
-    /// @param first  gets the slips of the first pass with the step Δt or the one that is asked for
+    /// @param coarsest  gets the first pass with the step Δt or the one that is asked for
     /// @returns the state at the end of the last one
     ReducedState refine(Motion& motion, Strength& strength, const Start& start, RunResult& result,
-                        std::vector<double>& first) const;
-    /// @param first  slips of the run's first pass
+                        FirstPass& coarsest) const;
     /// @returns nothing when one of its runs was interrupted
     std::optional<double> truncation_error(const Motion& motion, const Start& start,
-                                           const std::vector<double>& first) const;
+                                           const FirstPass& first) const;
 
     const EarthquakeRun& full_;
     Scene scene_;

@@ -384,14 +384,7 @@ void EarthquakeRun::end_run(const ContactMotion& dynamics, const Strength& stren
     const Plane& plane = planes.base();
     const Index m = plane.pairs();
     result.slip = result.history.slip.back();
-    if (!result.events.empty()) {
-        result.events.back().slip = result.slip;
-        double before = 0.0;
-        for (EventSlip& event : result.events) {
-            event.change = event.slip - before;
-            before = event.slip;
-        }
-    }
+    end_events(result);
     result.max_slip = dynamics.largest_slips().of(0);
     result.end_time = result.history.time.back();
     result.counts = dynamics.counts();
@@ -476,9 +469,17 @@ SlideWatch EarthquakeRun::slide_watch(const BatchedRun& batched, double record_e
     return {{record_end, normal_force, scene_.sliding.steady_rate_change}, [this] { return window(); }};
 }
 
-namespace {
+void end_events(RunResult& run)
+{
+    if (run.events.empty()) return;
+    run.events.back().slip = run.slip;
+    double before = 0.0;
+    for (EventSlip& event : run.events) {
+        event.change = event.slip - before;
+        before = event.slip;
+    }
+}
 
-/// First row of each event in a history.
 std::vector<std::size_t> event_rows(const RunResult& run)
 {
     std::vector<std::size_t> rows{0};
@@ -489,8 +490,6 @@ std::vector<std::size_t> event_rows(const RunResult& run)
     }
     return rows;
 }
-
-} // namespace
 
 void EarthquakeRun::BatchedRun::note_slips(const RunResult& pass)
 {

@@ -51,6 +51,9 @@ int next_halvings(std::span<const SlipAtStep> slips, double excess, double large
 /// @pre neither is empty
 double largest_difference(std::span<const double> a, std::span<const double> b);
 
+void end_events(RunResult& run); ///< the slip of the last event, and what each one changed
+std::vector<std::size_t> event_rows(const RunResult& run); ///< the first one of each event in its history; of one record 0
+
 /// The same of runs of several events, each compared from its own first row on: a dam that rests sooner meets the next event
 /// sooner. @param a_starts, b_starts  rows, ascending, the first one 0
 double largest_difference(std::span<const double> a, std::span<const std::size_t> a_starts, std::span<const double> b,

@@ -114,21 +114,28 @@ TEST_P(JointState, AllModesAreTheFullRun)
     const Ready ready = prepare(scene, Method::finite_elements, nullptr);
     const fe2d::RunOptions options = ready.run_options(nobody);
     const fe2d::EarthquakeRun full(ready.scene, options);
-    const GroundMotion motion = record_of(2.5, 5);
-    const fe2d::RunResult expected = full.run(motion),
-                          result = fe2d::ReducedRun(full, ready.scene, options, 100000).run(motion);
-    ASSERT_GT(std::abs(expected.slip), 1e-4);
-    EXPECT_EQ(result.status, expected.status);
-    EXPECT_EQ(result.counts.unresolved, expected.counts.unresolved);
-    EXPECT_LT(fe2d::largest_difference(result.history.slip, expected.history.slip), 1e-6 * std::abs(expected.slip));
-    const double force = expected.history.normal_force[0];
-    EXPECT_LT(fe2d::largest_difference(result.history.normal_force, expected.history.normal_force), 1e-5 * force);
-    EXPECT_NEAR(result.after.open_length, expected.after.open_length, 1e-6);
-    ASSERT_EQ(result.anchors.size(), expected.anchors.size());
-    for (std::size_t i = 0; i < result.anchors.size(); ++i)
-        EXPECT_NEAR(result.anchors[i].history.largest_force, expected.anchors[i].history.largest_force,
-                    1e-6 * expected.anchors[i].history.largest_force);
-    ASSERT_EQ(result.base_water.has_value(), expected.base_water.has_value());
+    const fe2d::ReducedRun reduced(full, ready.scene, options, 100000);
+    const GroundMotion one = record_of(2.5, 5), two = records::one_after_the_other({record_of(2.5, 5), record_of(2.0, 6)}, 0.5);
+    for (const GroundMotion* motion : {&one, &two}) {
+        const fe2d::RunResult expected = full.run(*motion), result = reduced.run(*motion);
+        ASSERT_GT(std::abs(expected.slip), 1e-4);
+        EXPECT_EQ(result.status, expected.status);
+        EXPECT_EQ(result.counts.unresolved, expected.counts.unresolved);
+        EXPECT_LT(fe2d::largest_difference(result.history.slip, expected.history.slip), 1e-6 * std::abs(expected.slip));
+        const double force = expected.history.normal_force[0];
+        EXPECT_LT(fe2d::largest_difference(result.history.normal_force, expected.history.normal_force), 1e-5 * force);
+        EXPECT_NEAR(result.after.open_length, expected.after.open_length, 1e-6);
+        ASSERT_EQ(result.anchors.size(), expected.anchors.size());
+        for (std::size_t i = 0; i < result.anchors.size(); ++i)
+            EXPECT_NEAR(result.anchors[i].history.largest_force, expected.anchors[i].history.largest_force,
+                        1e-6 * expected.anchors[i].history.largest_force);
+        ASSERT_EQ(result.base_water.has_value(), expected.base_water.has_value());
+        ASSERT_EQ(result.events.size(), expected.events.size());
+        for (std::size_t i = 0; i < result.events.size(); ++i) {
+            EXPECT_EQ(result.events[i].start, expected.events[i].start);
+            EXPECT_NEAR(result.events[i].change, expected.events[i].change, 1e-6 * std::abs(expected.slip));
+        }
+    }
 }
 
 TEST_P(JointState, FileKeepsEveryBit)

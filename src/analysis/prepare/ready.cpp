@@ -63,9 +63,10 @@ std::optional<Diagnostic> why_not_reducible(const Scene& scene)
         return not_with("time.stepping = \"adaptive\"",
                         "stepping = \"uniform\", sub-steps of a reduced run are all alike",
                         "delete stepping in [time]");
-    if (!scene.motion.sequence.empty())
-        return not_with("motion.sequence", "each record alone: a reduced run starts from rest",
-                        "delete sequence in [motion]");
+    if (!scene.motion.sequence.empty() && scene.uplift && scene.uplift->water.after == WaterAfter::full)
+        return not_with("motion.sequence with uplift.after = \"full\"",
+                        "after = \"unchanged\": a reduced run has no static state between two records",
+                        "delete  after  in [uplift]");
     if (scene.contact.restitution > 0.0)
         return not_with(fmt::format("contact.restitution = {:g}", scene.contact.restitution),
                         "restitution = 0, impacts of a reduced run come to rest", "delete restitution");
@@ -90,7 +91,7 @@ void check_reducible(const Scene& scene)
 
 void set_corrector(const Scene& scene, fe2d::RunOptions& options)
 {
-    const bool corrects = scene.time.stepping == Stepping::automatic && !scene.time.substeps && !with_exact_contact(scene) &&
+    const bool corrects = scene.motion.sequence.empty() && scene.time.stepping == Stepping::automatic && !scene.time.substeps && !with_exact_contact(scene) &&
                           scene.tied_lifts.empty() && scene.dam.crack != BodyCrack::traced && first_joint_law(scene).empty() &&
                           !why_not_reducible(scene);
     options.corrector = corrects ? fe2d::corrected_run : decltype(options.corrector)();
