@@ -320,7 +320,7 @@ constexpr std::array rows{
     Row{"motion", statics}, Row{"motion.polarity", slips}, Row{"motion.vertical", slips | spectrum},
     // Modified Rayleigh damping is fitted to the record.
     Row{"motion.scale", statics | modes}, Row{"motion.record.scale", statics | modes},
-    Row{"motion.sequence", rigid | regressions | spectrum | fe | modes}, Row{"motion.sequence_pause", fe},
+    Row{"motion.sequence", rigid | regressions | spectrum | finite_elements | modes}, Row{"motion.sequence_pause", finite_elements},
     Row{"motion.record", statics}, Row{"motion.record.magnitude", regressions},
     Row{"sliding", blocks}, Row{"sliding.scheme", rigid}, Row{"sliding.restitution", rigid},
     Row{"sliding.run_out_max", slips}, Row{"sliding.steady_rate_change", finite_elements},
