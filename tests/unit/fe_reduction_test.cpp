@@ -78,14 +78,14 @@ TEST(FeReduction, all_modes_are_the_full_run_with_penalty_and_substeps)
     expect_full_run(scene, options);
 }
 
-// Friction falls with the rate, at once and with a lag.
+// Friction that falls with the rate and lags behind it, by a time or by a slip.
 TEST(FeReduction, all_modes_are_the_full_run_with_friction_over_the_rate)
 {
     Scene scene = small_dam(0.75);
     RunOptions options = options_of(scene);
     scene.time.substeps = 1;
-    for (const std::optional<double> lag : {std::optional<double>(), std::optional<double>(0.1)}) {
-        scene.contact.rate = {0.9, 0.05, lag, {}};
+    for (const RateFriction& rate : {RateFriction{0.9, 0.05, 0.1, {}}, RateFriction{0.9, 0.05, {}, 0.005}}) {
+        scene.contact.rate = rate;
         expect_full_run(scene, options);
     }
 }
