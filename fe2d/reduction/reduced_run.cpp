@@ -284,7 +284,9 @@ void record(const ReducedContact& dynamics, const GroundAcceleration& ground, Ru
     history.ground_v.push_back(ground.v);
     history.slip.push_back(dynamics.mean_slip());
     history.crest_x.push_back(dynamics.crest());
-    const VectorXd force = contact.contact_force();
+    const bool laws = contact.laws.active();
+    const VectorXd carried = laws ? contact.contact_force() : VectorXd();
+    const VectorXd& force = laws ? carried : contact.force;
     history.normal_force.push_back(force.head(m).sum());
     history.shear_force.push_back(-force.tail(m).sum());
 }
