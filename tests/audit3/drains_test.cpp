@@ -49,7 +49,6 @@ TEST_F(Audit3Drains, A1_DrainsLostAtSlipInFiniteElements)
     const Json few = json({"fe", "--no-mesh-error", "--reduced"}, toml_of(drained("0.002")));
     EXPECT_NEAR(slip(few), lost, 0.02 * lost);
     EXPECT_TRUE(std::any_of(few["messages"].begin(), few["messages"].end(), said)) << few["messages"];
-
 }
 
 /// A dam that does not deform slides as the rigid block does.
