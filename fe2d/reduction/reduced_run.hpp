@@ -30,7 +30,7 @@ enum class TruncationEstimate { made, left_out };
 /// with N = 2n ... 4n modes, and with half of them e = |s(n/2) - s(n)|. Slips scatter around that law and either
 /// difference may be small by accident: the estimate is their geometric mean, from runs on a coarse plane, where they
 /// cost little. With acoustic water attachment modes give fewer modes the most of what they leave out: the estimate is the first
-/// one, with 4n modes, alone, on the plane itself and with the largest steps of the run.
+/// one, with 4n modes, alone, on the plane itself and with the largest steps of the run. So it is with laws of the joint and sequences.
 class ReducedRun {
 public:
     /// @param full  made from the same scene and options; kept by reference
@@ -68,7 +68,7 @@ private:
         ContactMemory rest;  ///< of the pairs
         StageResult balance; ///< the last static stage
     };
-    /// Systems on a coarse plane, with acoustic water the reference alone, on the plane itself; none where all modes are kept.
+    /// Systems on a coarse plane, or the reference alone on the plane itself (on_plane_itself()); none where all modes are kept.
     struct Estimators {
         std::unique_ptr<const ReducedModel> kept, fewer, reference;
     };
@@ -80,7 +80,8 @@ private:
     ReducedSystem system_of(DamModes modes) const;
     double highest_frequency() const; ///< ω up to which pressures are to be right [rad/s]
     std::vector<Note> obstacle() const; ///< of the scene; empty: none
-    bool on_plane_itself() const; ///< is the truncation error found there? Attachment modes and laws of joints are lost on a coarse one
+    /// Is the truncation error found on the plane itself? A coarse one has no attachment modes, no laws of the joint and no events.
+    bool on_plane_itself() const;
     const Estimators& estimators() const;
     Motion motion_of(const GroundMotion& motion, const std::optional<int>& halvings) const;
     /// The static stages, into `result`.
