@@ -272,6 +272,7 @@ RunResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contac
 }
 
 using Eigen::Index;
+using Eigen::VectorXd;
 
 namespace {
 

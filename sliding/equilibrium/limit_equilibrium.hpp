@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/status.hpp"
-#include "scene/check.hpp"
+#include "scene/scene.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 
 #include <optional>

@@ -19,7 +19,6 @@
 #include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
