@@ -52,9 +52,6 @@ Scene scene_of_table(toml::table root, const std::filesystem::path& file, FileCh
 /// The first half. @throws InputError with the line that is no TOML
 toml::table toml_of(std::string_view text, const std::filesystem::path& file);
 
-/// As written in a scene file: "curtain".
-const char* word(UpliftModel model);
-
 /// Turns what [section] says into the polygon. Problems go to `findings`.
 Section make_section(const SectionInput& input, Findings& findings);
 

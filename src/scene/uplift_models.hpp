@@ -64,6 +64,9 @@ struct UpliftRow {
 
 /// All rows; the place of a row is the value of its UpliftModel.
 std::span<const UpliftRow> uplift_rows();
+
+/// As written in a scene file: "curtain".
+const char* word(UpliftModel model);
 const UpliftRow& uplift_row(UpliftModel model);
 
 } // namespace damslip

@@ -5,6 +5,7 @@
 #include "core/status.hpp"
 #include "scene/scene_text.hpp"
 #include "scene/section.hpp"
+#include "scene/uplift_models.hpp"
 #include "sliding/block/slide_batch.hpp"
 
 #include <fmt/format.h>

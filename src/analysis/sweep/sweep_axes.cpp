@@ -6,7 +6,6 @@
 #include "core/input_error.hpp"
 #include "core/text.hpp"
 #include "scene/added_mass_formulas.hpp"
-#include "scene/check.hpp"
 #include "scene/joint_bond.hpp"
 #include "scene/keys.hpp"
 #include "scene/rock_mass.hpp"

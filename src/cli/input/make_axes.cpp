@@ -7,7 +7,6 @@
 #include "core/text.hpp"
 #include "core/units.hpp"
 #include "scene/added_mass_formulas.hpp"
-#include "scene/check.hpp"
 #include "scene/joint_bond.hpp"
 #include "scene/plausible.hpp"
 #include "scene/section.hpp"

@@ -1,6 +1,7 @@
 #include "pages/scene/scene_pages.hpp"
 
 #include "core/units.hpp"
+#include "scene/uplift_models.hpp"
 
 #include <algorithm>
 #include <cmath>
