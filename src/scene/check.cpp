@@ -1,5 +1,6 @@
 #include "scene/check.hpp"
 
+#include "scene/uplift_models.hpp"
 #include "scene/water.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 #include "scene/added_mass_formulas.hpp"
 #include "scene/check.hpp"
+#include "scene/uplift_models.hpp"
 #include "scene/effect_plan.hpp"
 #include "scene/joint_bond.hpp"
 #include "scene/rock_mass.hpp"
