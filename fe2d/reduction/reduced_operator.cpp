@@ -148,7 +148,7 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
         flexibility.noalias() += on_plane.rightCols(rock) * soft_rock * on_plane.rightCols(rock).transpose();
     }
     if (system.water) {
-        const Index water = system.water->count(), shown = system.water->pressures();
+        const Index shown = system.water->pressures();
         MatrixXd of_water = constants.a0 * system.water->mass + (w * constants.a1) * system.water->damping + w * system.water->stiffness;
         const MatrixXd face = (w * constants.a1) * system.of_face.leftCols(shown);
         dam_per_pressure_ = soft_dam * face;

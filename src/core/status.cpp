@@ -9,6 +9,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <string_view>
 
 namespace damslip {

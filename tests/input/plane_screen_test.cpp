@@ -105,7 +105,9 @@ TEST_F(PlaneScreen, SweepsThePlane)
     EXPECT_EQ(friction["clay"], 0.7);
     EXPECT_EQ(friction["lift at 20 m"], 0.75);
     for (const auto& plane : nlohmann::json::parse(screened.out)["planes"])
-        if (largest.contains(plane["plane"])) EXPECT_EQ(plane["slip_m"].get<double>(), largest[plane["plane"]]) << plane;
+        if (largest.contains(plane["plane"])) {
+            EXPECT_EQ(plane["slip_m"].get<double>(), largest[plane["plane"]]) << plane;
+        }
     const ProgramAnswer wrong = answer_of({"sweep", file.string(), "--plane", "clai"});
     EXPECT_NE((wrong.talk + wrong.out).find("Did you mean clay?"), std::string::npos) << wrong.talk;
 }

@@ -4,6 +4,7 @@
 #include "program_answer.hpp"
 #include "scene/read.hpp"
 #include "scene/scene_text.hpp"
+#include "source_dir.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -198,7 +198,7 @@ TEST_F(RecordFolder, factors_on_a_stated_peak_are_named)
                       words = "motion.scale_to_pga = 3 m/s2 is followed by a factor of 2";
     EXPECT_EQ(warned(pga, "", {}).find("scale_to_pga"), std::string::npos);
     EXPECT_EQ(warned("scale = 2\n", "scale = 2\n", {}).find("scale_to_pga"), std::string::npos);
-    for (const std::string said :
+    for (const std::string& said :
          {warned(pga + "scale = 2\n", "", {}), warned(pga, "scale = 2\n", {}), warned(pga, "", {"--scale", "2"})}) {
         EXPECT_NE(said.find(words), std::string::npos) << said;
         EXPECT_NE(said.find("is 6 m/s2 (0.6118 g)"), std::string::npos) << said;

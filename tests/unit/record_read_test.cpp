@@ -165,7 +165,7 @@ TEST(RecordRead, units_of_headings)
                 {"in/s2", 0.0254},  {"ft/s2", 0.3048},    {"%g", 0.01 * g},  {"g/10", 0.1 * g},
                 {"gals", 0.01}};
     for (const auto& row : rows)
-        for (const std::string heading :
+        for (const std::string& heading :
              {"time_s,accel_" + std::string(row.unit), "time_s,\"acc_" + std::string(row.unit) + "\""})
             expect_samples(one(heading + "\n0,0\n0.1,2\n"), 0.1, {0, 2 * row.factor});
     expect_samples(one("\"time (s)\"\t\"acc (mg)\"\n0\t0\n0.1\t2\n"), 0.1, {0, 0.002 * g});

@@ -1,5 +1,6 @@
 #include "pages/report/table_text.hpp"
 
+#include "core/text.hpp"
 #include "pages/report/answer.hpp"
 
 #include <algorithm>
